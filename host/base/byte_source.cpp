@@ -20,7 +20,7 @@ constexpr std::size_t kWindowBytes = std::size_t{1} << 20;
 std::string cannot_read(const std::filesystem::path& path) { return "cannot read " + path.string(); }
 
 [[noreturn]] void fail(const std::filesystem::path& path, int code) {
-  throw system_error(cannot_read(path), code, {Help::check_permissions_and_disk});
+  throw system_error(cannot_read(path), code, ": check its permissions and the disk");
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ FileSource::FileSource(std::filesystem::path path) : path_(std::move(path)) {
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(descriptor_);
-    throw Error(cannot_read(path_) + ": it is not a regular file", {Help::check_path});
+    throw Error(cannot_read(path_) + ": it is not a regular file: check the path");
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -52,7 +52,7 @@ ByteView FileSource::read(std::uint64_t offset, std::size_t count) {
       if (got <= 0) {
         window_.clear();
         if (got < 0) fail(path_, errno);
-        throw Error(cannot_read(path_) + ": it became shorter", {Help::check_path});
+        throw Error(cannot_read(path_) + ": it became shorter: check the path");
       }
       done += static_cast<std::size_t>(got);
     }

@@ -2,24 +2,59 @@
 
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
-
-#include "host/base/remedy.hpp"
+#include <vector>
 
 namespace astro {
 
-/// What the host tools throw when something outside the program is wrong: what() is one clear sentence that
-/// states what happened and names the thing; remedy() says what would help where that depends on the commands.
-class Error : public std::runtime_error {
+/// What went wrong or looks odd, as a value of an enumeration of the room that says it:
+/// importing::WheelProblem::columns_unclear. A new one touches that room alone.
+class Kind {
  public:
-  explicit Error(const std::string& fact, Remedy remedy = {})
-      : std::runtime_error(fact), remedy_(std::move(remedy)) {}
-  explicit Error(const Remark& remark) : Error(remark.fact, remark.remedy) {}
+  constexpr Kind() = default;
+  template <typename Problem>
+  requires std::is_enum_v<Problem>
+  constexpr Kind(Problem problem)  // NOLINT(google-explicit-constructor): a problem is a kind
+      : room_(&kRoom<Problem>), problem_(static_cast<int>(problem)) {}
 
-  const Remedy& remedy() const { return remedy_; }
+  friend constexpr bool operator==(const Kind&, const Kind&) = default;
 
  private:
-  Remedy remedy_;
+  template <typename Problem>
+  static constexpr char kRoom = 0;  // its address tells the enumerations apart
+
+  const char* room_ = nullptr;
+  int problem_ = 0;
+};
+
+/// A notice that is not an error: a whole sentence, with what would help where that needs no command line; and the kind, with
+/// the names and values in the sentence, for those who act on it or know an option that helps (host/commands/base/advice.hpp).
+struct Remark {
+  std::string sentence;
+  Kind kind = {};
+  std::vector<std::string> values = {};
+
+  /// The same in a sentence that begins with `where`: "run 3: ".
+  Remark in(const std::string& where) const { return {where + sentence, kind, values}; }
+};
+
+/// What the host tools throw when something outside the program is wrong.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const std::string& sentence, Kind kind = {}, std::vector<std::string> values = {})
+      : std::runtime_error(sentence), kind_(kind), values_(std::move(values)) {}
+  explicit Error(const Remark& remark) : Error(remark.sentence, remark.kind, remark.values) {}
+
+  Kind kind() const { return kind_; }
+  const std::vector<std::string>& values() const { return values_; }
+  Remark remark() const { return {what(), kind_, values_}; }
+
+  Remark in(const std::string& where) const { return remark().in(where); }
+
+ private:
+  Kind kind_;
+  std::vector<std::string> values_;
 };
 
 }  // namespace astro

@@ -31,10 +31,10 @@ bool is_recording(const fs::path& path) {
 
 Error too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_bytes) {
   if (most_bytes == kMaxFileBytes)
-    return Error(path.string() + " is larger than 4 GiB", {Help::split_into_shorter_runs});
+    return Error(path.string() + " is larger than 4 GiB: split it into shorter runs");
   return Error(path.string() + " has " + std::to_string(size) +
-                   " bytes, and no file of its kind has more than " + std::to_string(most_bytes),
-               {Help::name_right_file});
+               " bytes, and no file of its kind has more than " + std::to_string(most_bytes) +
+               ": name the right file");
 }
 
 /// Syncs the folder, so that the new name survives a power cut, too. Some file systems cannot do that; the
@@ -71,14 +71,13 @@ void require_file(const fs::path& path) {
   if (!fs::status_known(status)) throw Error("cannot read " + path.string() + ": " + error.message());
   if (!fs::exists(status)) {
     if (fs::exists(part_of(path), error)) {
-      throw Error(
-          path.string() + " was never finished: what was recorded of it is in " + part_of(path).string(),
-          {Help::use_part_file_or_record_again});
+      throw Error(path.string() + " was never finished: what was recorded of it is in " +
+                  part_of(path).string() + "; rename that file to use it, or record the run again");
     }
-    throw Error(path.string() + " does not exist", {Help::check_path});
+    throw Error(path.string() + " does not exist: check the path");
   }
-  if (fs::is_directory(status)) throw Error(path.string() + " is a folder", {Help::name_file_in_it});
-  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe", {Help::name_file});
+  if (fs::is_directory(status)) throw Error(path.string() + " is a folder: name a file in it");
+  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe: name a file");
 }
 
 Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
@@ -90,15 +89,14 @@ Bytes load_text(const fs::path& path, std::size_t longest_line) {
   return loaded(path, kMaxFileBytes, [&](ByteView block, const Bytes& before) {
     const std::string_view text = as_text(block);
     if (const std::size_t zero = text.find('\0'); zero != text.npos)
-      throw Error(
-          path.string() + " is not plain text: byte " + std::to_string(before.size() + zero + 1) + " is zero",
-          {Help::save_as_csv});
+      throw Error(path.string() + " is not plain text: byte " + std::to_string(before.size() + zero + 1) +
+                  " is zero: save the table as comma separated UTF-8");
     if (const std::size_t end = text.find_last_of("\r\n"); end != text.npos)
       line_begin = before.size() + end + 1;
     if (before.size() + block.size() - line_begin > longest_line)
       throw Error(path.string() + " is no table: from byte " + std::to_string(line_begin + 1) +
-                      " on, a line has more than " + std::to_string(longest_line) + " bytes",
-                  {Help::save_as_csv});
+                  " on, a line has more than " + std::to_string(longest_line) +
+                  " bytes: save the table as comma separated UTF-8");
   });
 }
 
@@ -111,27 +109,25 @@ void require_own_kind(const fs::path& path, std::string_view mark, const std::st
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
   if (beginning.find(mark) == std::string::npos)
-    throw Error(
-        "'" + path.string() + "' exists and is no " + kind + " of this program, as what would replace it is",
-        {Help::remove_or_name_other_file});
+    throw Error("'" + path.string() + "' exists and is no " + kind +
+                " of this program, as what would replace it is: remove it or name another file");
 }
 
 void require_no_input(const fs::path& path, std::initializer_list<fs::path> inputs) {
   std::error_code ignored;
   for (const fs::path& input : inputs)
     if (fs::equivalent(path, input, ignored))
-      throw Error("'" + path.string() + "' is read, and would be overwritten", {Help::name_other_file});
+      throw Error("'" + path.string() + "' is read, and would be overwritten: name another file");
 }
 
 PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), part_(part_of(path_)) {
   std::error_code ignored, error;
   if (fs::is_directory(path_, ignored))
-    throw Error("'" + path_.string() + "' is a folder", {Help::name_file_in_it});
+    throw Error("'" + path_.string() + "' is a folder: name a file in it");
   if (fs::exists(path_, ignored) && !fs::is_regular_file(path_, ignored))
-    throw Error("'" + path_.string() + "' is a device or a pipe", {Help::name_file});
+    throw Error("'" + path_.string() + "' is a device or a pipe: name a file");
   const auto is_kept = [&] { return replaces != Replaces::recordings_too && is_recording(path_); };
-  const Remark kept{"'" + path_.string() + "' is a recording, and nothing replaces one",
-                    {Help::name_other_file}};
+  const Remark kept{"'" + path_.string() + "' is a recording, and nothing replaces one: name another file"};
   if (is_kept()) throw Error(kept);
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
@@ -153,14 +149,14 @@ void PartFile::open_part() {
     struct stat opened {
     }, named{};
     if (::fstat(descriptor_, &opened) == 0 && !S_ISREG(opened.st_mode))
-      give_up({part_.string() + " is no file, so nothing can be recorded there",
-               {Help::remove_or_name_other_file}});
+      give_up(
+          {part_.string() + " is no file, so nothing can be recorded there: remove it or name another file"});
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      give_up({part_.string() + " is being written by another program", {Help::wait_or_name_other_file}});
+      give_up({part_.string() + " is being written by another program: wait for it or name another file"});
     // Another program may have given the file its name between open and flock: it is no longer ours to empty.
     if (::lstat(part_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
       break;
-    if (tries == kTries) give_up({part_.string() + " changes again and again", {Help::use_other_folder}});
+    if (tries == kTries) give_up({part_.string() + " changes again and again: choose another folder"});
     ::close(descriptor_);
   }
   if (::ftruncate(descriptor_, 0) != 0) give_up(why_not("empty"));
@@ -179,11 +175,11 @@ PartFile::~PartFile() {
 
 Remark PartFile::why_not(const std::string& what) const {
   if (errno == ELOOP)
-    return {part_.string() + " is a link, and nothing is written through one",
-            {Help::remove_or_name_other_file}};
-  const Error why =
-      system_error("cannot " + what + " " + part_.string(), errno, {Help::check_disk_or_use_other_folder});
-  return {why.what(), why.remedy()};
+    return {part_.string() +
+            " is a link, and nothing is written through one: remove it or name another file"};
+  const Error why = system_error("cannot " + what + " " + part_.string(), errno,
+                                 "; check the disk or choose another folder");
+  return why.remark();
 }
 
 void PartFile::fail(const std::string& what) const { throw Error(why_not(what)); }

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "host/base/bytes.hpp"
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 
 namespace astro {
 

@@ -20,7 +20,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   if (descriptor_ < 0) throw system_error("cannot open the folder " + folder.string(), errno);
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
-  throw Error("another program records into '" + folder.string() + "'", {Help::wait_or_name_other_folder});
+  throw Error("another program records into '" + folder.string() + "': wait for it or name another folder");
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <system_error>
-#include <utility>
 
 namespace astro {
 
@@ -16,9 +15,10 @@ std::string system_reason(int code) {
   return "this program has as many files open as its limit allows, " + std::to_string(limit.rlim_cur);
 }
 
-Error system_error(const std::string& fact, int code, Remedy remedy) {
-  const bool no_descriptor = code == EMFILE || code == ENFILE;
-  return Error(fact + ": " + system_reason(code), no_descriptor ? Remedy{} : std::move(remedy));
+Error system_error(const std::string& fact, int code, const std::string& advice, Kind kind) {
+  const std::string sentence = fact + ": " + system_reason(code);
+  if (code == EMFILE || code == ENFILE) return Error(sentence);
+  return Error(sentence + advice, kind);
 }
 
 }  // namespace astro

@@ -149,11 +149,13 @@ std::string ask(const std::string& prompt) {
     if (!arrives()) {
       if (read_ahead.empty()) {
         to_stderr("\n");  // ends the line of the question, which is on the screen already
-        throw Error("the input ended where an answer was expected", {Help::answer_at_terminal});
+        throw Error(
+            "the input ended where an answer was expected: answer at a terminal, or pipe all answers in");
       }
       return std::exchange(read_ahead, {});
     } else if (read_ahead.size() > kLongestAnswer) {
-      throw Error("the input has no end of a line where an answer was expected", {Help::answer_in_lines});
+      throw Error(
+          "the input has no end of a line where an answer was expected: give one answer in each line");
     }
   const std::string line = read_ahead.substr(0, end);
   read_ahead.erase(0, end + 1);
@@ -167,7 +169,8 @@ std::string ask_before_acting(const std::string& prompt) {
 
 bool confirm(const std::string& question) {
   if (!stdin_is_terminal())
-    throw Error("'" + question + "' needs an answer and the input is no terminal", {Help::agree_beforehand});
+    throw Error("'" + question + "' needs an answer and the input is no terminal",
+                ConsoleProblem::nobody_agrees);
   const std::string answer = ask_before_acting(question + " [y/N] ");
   return answer == "y" || answer == "Y" || answer == "yes";
 }

@@ -10,6 +10,8 @@
 /// plain_text, because names and messages contain text from robots and files.
 namespace astro::console {
 
+enum class ConsoleProblem { nobody_agrees };
+
 /// Must be called before any file is opened. If standard input, output or error is closed, the next file that
 /// is opened would get its number, and printed text would be sent to a robot. This function opens /dev/null
 /// there instead, so that writing fails.
@@ -35,7 +37,7 @@ std::string in_words(const std::filesystem::filesystem_error& error);
 void complain_without_memory(const char* sentence);
 
 /// Asks on stderr, reads a line from stdin, as ask_before_acting() does. Throws astro::Error with
-/// Help::agree_beforehand if stdin is no terminal.
+/// ConsoleProblem::nobody_agrees if stdin is no terminal.
 bool confirm(const std::string& question);
 
 /// A line from stdin after a prompt on stderr. Throws astro::Error at the end of input, Interrupted on

@@ -9,11 +9,12 @@ namespace {
 
 Rest required(const std::optional<Rest>& rest, const Run& run, const std::string& end) {
   if (!rest) {
-    throw Error(run_name(run.info) + " does not stand still for 0.2 s at its " + end, {Help::stand_still});
+    throw Error(run_name(run.info) + " does not stand still for 0.2 s at its " + end +
+                ": record a standstill there");
   }
   if (!rest->truth) {
-    throw Error(run_name(run.info) + " has no valid ground truth while it stands at its " + end,
-                {Help::check_tracker});
+    throw Error(run_name(run.info) + " has no valid ground truth while it stands at its " + end +
+                ": check that the tracker sees the robot there");
   }
   return *rest;
 }
@@ -21,7 +22,7 @@ Rest required(const std::optional<Rest>& rest, const Run& run, const std::string
 }  // namespace
 
 RunEnds ends_of(const Run& run) {
-  if (run.odometry.empty()) throw Error(run_name(run.info) + " holds no odometry", {Help::record_again});
+  if (run.odometry.empty()) throw Error(run_name(run.info) + " holds no odometry: record it again");
   const Rest start = required(rest_at_start(run), run, "start");
   const Rest end = required(rest_at_end(run), run, "end");
   if (start.to_us >= end.from_us) {

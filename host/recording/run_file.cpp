@@ -62,11 +62,13 @@ struct RunFile {
 
 /// The warning for a file that is not complete; "" if it is.
 std::string warning_of(const std::string& file, const bag::McapReport& report, Damage damage) {
-  if (!report.is_mcap) throw Error(file + " is not an MCAP file", {Help::name_recording});
+  if (!report.is_mcap)
+    throw Error(file + " is not an MCAP file: name a recording made by Astrolabe",
+                RecordingProblem::not_mcap);
   const std::string damaged =
       file + " is damaged (" + (report.warnings.empty() ? std::string() : report.warnings.front()) + ")";
   if (report.damaged && damage == Damage::refused)
-    throw DamagedRecording(damaged, {Help::copy_or_record_again});
+    throw DamagedRecording(damaged + ": copy it again from where it was recorded, or record the run again");
   if (report.damaged) return damaged + ": some of the run is missing, and results from it may be wrong";
   if (report.truncated) return file + " was cut off while it was recorded: what was driven last is missing";
   return "";
@@ -82,8 +84,9 @@ RunRecord record_in(ByteSource& source, const std::string& file, Damage damage, 
   };
   warning = warning_of(file, bag::read_mcap(source, handlers), damage);
   if (!entries) {
-    throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) + ")",
-                {Help::name_recording});
+    throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) +
+                    "): name a recording made by Astrolabe",
+                RecordingProblem::of_no_run);
   }
   return run_record(*entries, file);
 }
@@ -119,8 +122,7 @@ void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
   }
   if (!good) {
     throw Error(file + " holds messages that do not belong to a run (the poses of /odom do not match the " +
-                    "counts of /wheel_counts): the file was edited",
-                {Help::use_original});
+                "counts of /wheel_counts): the file was edited; use the original");
   }
   streams.odometry.resize(pairs);
 }

@@ -14,6 +14,9 @@
 ///             sample comes back as NaN. `warning` is not stored.
 namespace astro::recording {
 
+/// What is no recording.
+enum class RecordingProblem { not_mcap, of_no_run, none_in_folder };
+
 /// Writes a run; the file appears complete or not at all. Throws astro::Error naming the file.
 void write_run(const std::filesystem::path& path, const Run& run);
 

@@ -13,9 +13,10 @@ std::vector<fs::path> list_runs(const fs::path& folder) {
   const fs::file_status status = fs::status(folder, error);
   if (!fs::status_known(status))
     throw Error("cannot list the folder " + folder.string() + ": " + error.message());
-  if (!fs::exists(status)) throw Error(folder.string() + " does not exist", {Help::name_folder_of_runs});
+  if (!fs::exists(status))
+    throw Error(folder.string() + " does not exist: name a folder that holds recorded runs");
   if (!fs::is_directory(folder, error))
-    throw Error(folder.string() + " is a file", {Help::name_folder_of_runs});
+    throw Error(folder.string() + " is a file: name a folder that holds recorded runs");
   std::vector<fs::path> paths;
   for (auto it = fs::recursive_directory_iterator(folder, error);
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
@@ -23,7 +24,7 @@ std::vector<fs::path> list_runs(const fs::path& folder) {
   }
   if (error) throw Error("cannot list the folder " + folder.string() + ": " + error.message());
   if (paths.empty()) {
-    throw Error("no recordings (*.mcap) in " + folder.string(), {Help::record_runs});
+    throw Error("no recordings (*.mcap) in " + folder.string(), RecordingProblem::none_in_folder);
   }
   std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.generic_string(), b.generic_string());

@@ -58,8 +58,7 @@ class Entries {
   }
   [[noreturn]] void bad(std::string_view key, const std::string& text) const {
     throw Error(file_ + " has the run record entry " + std::string(key) + " = \"" + text +
-                    "\", which makes no sense: the file was edited or damaged",
-                {Help::record_edited_again});
+                "\", which makes no sense: the file was edited or damaged; record the run again");
   }
 
  private:
@@ -109,7 +108,7 @@ bag::mcap::Map to_map(const RunRecord& record) {
 RunRecord run_record(const bag::mcap::Map& map, const std::string& file) {
   const Entries entries(map, file);
   if (entries.integer("format", kFormat) > kFormat) {
-    throw Error(file + " was written by a newer version of Astrolabe", {Help::update_program});
+    throw Error(file + " was written by a newer version of Astrolabe: update this program");
   }
   RunRecord record;
   record.info.direction = direction_in(entries);

@@ -101,8 +101,10 @@ class Square {
       const bool same = std::max(std::abs(moved.right_m), std::abs(moved.left_m)) < kSame_m;
       if (settled && same) return finish();
     }
-    throw NotFlush(fmt::format("the robot was still moving after {} pushes against the wall", kMostPushes),
-                   {Help::check_wall});
+    throw NotFlush(
+        fmt::format("the robot was still moving after {} pushes against the wall: see that the wall is "
+                    "straight and firm, the front of the robot flat, and the floor free and clean",
+                    kMostPushes));
   }
 
  private:
@@ -180,8 +182,9 @@ class Square {
                               : has_turned(0) ? "the right wheel does"
                                               : "the wheels do";
     throw NotFlush(
-        which + " not turn on the voltage of the set force, unless the robot touches the wall already",
-        {Help::face_wall_and_resume});
+        which + " not turn on the voltage of the set force, unless the robot touches the wall already" +
+            kFaceWall,
+        WallProblem::not_at_wall);
   }
 
   /// With a motor or an encoder that is reversed the regulator drives its wheel away from what it wants, ever faster. A wheel that the
@@ -194,14 +197,15 @@ class Square {
       if (way_m[side] < -kBackwards_m && watch_.now().speed_mps[side] < -kRunsAway_mps)
         fail(fmt::format("by its encoder the {} wheel runs backwards on a forward voltage",
                          side == 0 ? "left" : "right"),
-             Help::check_wiring);
+             WallProblem::runs_backwards);
     }
-    if (crept_m() < -kBack_m) fail("the robot drives backwards on a forward voltage", Help::check_wiring);
+    if (crept_m() < -kBack_m)
+      fail("the robot drives backwards on a forward voltage", WallProblem::runs_backwards);
     const double turned_rad = (since.right_m - since.left_m) / robot_.loaded.b_m;
     if (std::abs(turned_rad) > kMostTurn_rad)
       fail(fmt::format("the robot has turned by {:.0f} degrees {}", degrees(std::abs(turned_rad)),
                        touched_ ? "against the wall and is not flush" : "on its way to the wall"),
-           touched_ ? Help::face_wall_and_resume : Help::check_wiring);
+           touched_ ? WallProblem::not_at_wall : WallProblem::runs_backwards);
   }
 
   void pause() {
@@ -233,9 +237,9 @@ class Square {
     return settled_s >= kSettled_s;
   }
 
-  [[noreturn]] void fail(const std::string& why, Help help = Help::face_wall_and_resume) {
+  [[noreturn]] void fail(const std::string& why, WallProblem problem = WallProblem::not_at_wall) {
     pause();
-    throw NotFlush(why, {help});
+    throw NotFlush(problem == WallProblem::not_at_wall ? why + kFaceWall : why, problem);
   }
   static std::string in_mm(double length_m) { return fmt::format("{:.0f} mm", 1000 * length_m); }
 

@@ -101,8 +101,9 @@ void WallDriver::drive(std::span<const Leg> legs, const calibration::WheelFactor
   } catch (const Interrupted&) {
     watch_.seen = [](const WheelMoment&) {};
     if (!guard.pushes()) throw;
-    throw RanIntoSomething("the robot ran into something on its way, and was stopped",
-                           {Help::face_wall_and_resume});
+    throw RanIntoSomething(
+        "the robot ran into something on its way, and was stopped" + std::string(kFaceWall),
+        WallProblem::not_at_wall);
   } catch (...) {
     watch_.seen = [](const WheelMoment&) {};
     throw;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/wall/drive_against_wall.hpp"
 #include "host/wall/wall_scale.hpp"

@@ -105,9 +105,7 @@ class Experiment {
     } catch (const NotFlush& failed) {
       if (move.turns == 0 || journal_.moves.size() >= kFirstMoves) throw;
       throw NotFlush(
-          std::string(failed.what()) +
-              ", perhaps because its wheels or its wheelbase are some percent from what it carries",
-          failed.remedy());
+          failed.in("perhaps because its wheels or its wheelbase are some percent from what it carries, "));
     }
   }
 
@@ -160,7 +158,10 @@ class Experiment {
       // A gap that was read on that way is of a robot that somebody moved.
       std::erase_if(series().readings,
                     [&](const auto& reading) { return reading.squaring + 1 == series().squarings.size(); });
-      if (++doubts_ == kDoubtsInARow) throw Error(doubt->fact, {Help::check_wall});
+      if (++doubts_ == kDoubtsInARow)
+        throw Error(doubt->fact +
+                    ": see that the wall is straight and firm, the front of the robot flat, and the floor "
+                    "free and clean");
       hooks_.drive.notice({doubt->fact + "; that way does not count, and is driven again"});
       journal_.drive.push_back({{flush}, {}});
       return;

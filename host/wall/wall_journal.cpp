@@ -195,18 +195,18 @@ std::optional<WallJournal> read_wall_journal(const std::filesystem::path& folder
   if (!std::filesystem::exists(path)) return std::nullopt;
   const Bytes bytes = load_file(path, kMaxSettingsBytes);
   const std::string damaged = "'" + path.string() + "' is damaged";
-  if (!json_fits_memory(as_text(bytes))) throw Error(damaged, {Help::choose_other_out_folder});
+  if (!json_fits_memory(as_text(bytes))) throw Error(damaged, WallProblem::journal_damaged);
   json value;
   try {
     value = json::parse(bytes.begin(), bytes.end());
     if (value.at("format") == kFormat) return journal_in(value);
   } catch (const json::exception&) {
-    throw Error(damaged, {Help::choose_other_out_folder});
+    throw Error(damaged, WallProblem::journal_damaged);
   } catch (const Error& error) {
-    throw Error(damaged + " (" + error.what() + ")", {Help::choose_other_out_folder});
+    throw Error(damaged + " (" + error.what() + ")", WallProblem::journal_damaged);
   }
-  throw Error("'" + path.string() + "' was written by another version of Astrolabe",
-              {Help::use_same_version});
+  throw Error("'" + path.string() +
+              "' was written by another version of Astrolabe: use that one to go on with it");
 }
 
 void write_wall_journal(const std::filesystem::path& folder, const WallJournal& journal) {
@@ -234,13 +234,13 @@ WallJournal open_wall_journal(const std::filesystem::path& folder, const WallPla
   if (auto journal = read_wall_journal(folder)) {
     const std::string where = "the calibration in '" + folder.string() + "'";
     if (object(journal->plan) != object(plan))
-      throw Error(where + " has other settings", {Help::give_same_settings_or_choose_other_out_folder});
+      throw Error(where + " has other settings", WallProblem::other_settings);
     if (const std::string other = experiment::different_robots(where, journal->robot, "this", robot);
         !other.empty())
-      throw Error(other, {Help::choose_other_out_folder});
+      throw Error(other, WallProblem::other_robot);
     if (std::abs(journal->count_m / facts.count_m - 1) > kSame)
       throw Error(where + " was driven with another nominal wheel (diameter, gear or encoder)",
-                  {Help::choose_other_out_folder});
+                  WallProblem::other_wheel);
     return *journal;
   }
   std::filesystem::create_directories(folder);

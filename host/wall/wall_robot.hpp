@@ -8,6 +8,19 @@
 /// What a robot's parameters and its owner say about it, as far as a wall matters.
 namespace astro::wall {
 
+/// What ends a calibration against a wall, or keeps it from going on.
+enum class WallProblem {
+  not_at_wall,
+  runs_backwards,
+  journal_damaged,
+  other_settings,
+  other_robot,
+  other_wheel
+};
+
+/// The end of a sentence about a robot that is not where it should be.
+inline constexpr const char* kFaceWall = ": put it in front of the wall, facing it, with nothing in its way";
+
 /// Outline of the body over the floor, as far as its owner measured it; only roughly needed.
 struct BodySize {
   double front_to_axle_m = 0.1625, length_m = 0.325, width_m = 0.337;

@@ -38,7 +38,7 @@ void take(ByteView input) {
   static const InputFile file(truth::truth_file_name(run.info));
   file.holding(input);
   truth::FileSource source(file.folder(), [](const truth::Question& question) -> std::string {
-    throw Error(question.occasion.fact + question.text);
+    throw Error(question.occasion.sentence + question.text);
   });
   reading([&] {
     const auto samples = source.complete(run);

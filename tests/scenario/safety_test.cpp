@@ -72,7 +72,7 @@ TEST_F(LeftAlone, AnotherHostClearsTheFaultAndDrivesOn) {
   second.connect();
   std::vector<std::string> notices;
   robot::DriveHooks hooks;
-  hooks.notice = [&](const Remark& notice) { notices.push_back(notice.fact); };
+  hooks.notice = [&](const Remark& notice) { notices.push_back(notice.sentence); };
   robot::DriveSession drive(second, hooks);
   drive.run(robot::line(0.5));
   ASSERT_EQ(notices.size(), 1U);

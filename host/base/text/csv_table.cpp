@@ -74,28 +74,28 @@ bool is_blank(const CsvRow& row) {
 void require_width(const CsvTable& table, const CsvRow& row, std::string_view name) {
   const std::size_t expected = table.header.cells.size();
   if (row.cells.size() == expected) return;
-  refuse(
-      name, row.line,
-      "the row has " + std::to_string(row.cells.size()) + " cells and the header " + std::to_string(expected),
-      {Help::fill_each_cell});
+  refuse(name, row.line,
+         "the row has " + std::to_string(row.cells.size()) + " cells and the header " +
+             std::to_string(expected) + ": give every column a cell, and write numbers with a decimal point");
 }
 
 void require_commas(const CsvRow& header, std::string_view name) {
   if (header.cells.size() > 1 || header.cells[0].find(';') == std::string::npos) return;
-  refuse(name, header.line, "the cells are separated by semicolons", {Help::separate_by_commas});
+  refuse(name, header.line,
+         "the cells are separated by semicolons: use commas, and decimal points in the numbers");
 }
 
 }  // namespace
 
-void refuse(std::string_view name, int line, const std::string& what, const Remedy& remedy) {
-  throw Error(std::string(name) + ", line " + std::to_string(line) + ": " + what, remedy);
+void refuse(std::string_view name, int line, const std::string& what, Kind kind) {
+  throw Error(std::string(name) + ", line " + std::to_string(line) + ": " + what, kind);
 }
 
 CsvTable split_csv(std::string_view text, std::string_view name) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos)
-    throw Error(std::string(name) + " is not plain text: byte " + std::to_string(at + 1) + " is zero",
-                {Help::save_as_csv});
+    throw Error(std::string(name) + " is not plain text: byte " + std::to_string(at + 1) +
+                " is zero: save the table as comma separated UTF-8");
   CsvTable out;
   std::size_t memory = 0;
   const std::size_t most = kFreeTableBytes + 2 * text.size();
@@ -108,7 +108,7 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
     } else {
       require_width(out, row, name);
       if ((memory += memory_of(row)) > most)
-        refuse(name, line, "the table has more cells than can be held", {Help::split_into_files});
+        refuse(name, line, "the table has more cells than can be held: split it into one file for each run");
       out.rows.push_back(std::move(row));
     }
   }

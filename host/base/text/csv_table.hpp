@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 
 namespace astro {
 
@@ -24,7 +24,7 @@ struct CsvTable {
 /// it, more than 1000 columns, a table that would take more memory than 48 MiB plus twice its text.
 CsvTable split_csv(std::string_view text, std::string_view name);
 
-/// Throws astro::Error("NAME, line N: WHAT", remedy).
-[[noreturn]] void refuse(std::string_view name, int line, const std::string& what, const Remedy& remedy = {});
+/// Throws astro::Error("NAME, line N: WHAT").
+[[noreturn]] void refuse(std::string_view name, int line, const std::string& what, Kind kind = {});
 
 }  // namespace astro

@@ -16,12 +16,12 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void require_values(std::span<const EndPose> runs, const std::string& set) {
   if (runs.empty()) {
-    throw Error("there is no " + set + "run", {Help::drive_some_squares});
+    throw Error("there is no " + set + "run: record at least one, better five");
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string run = set + "run " + std::to_string(i + 1);
     if (!std::isfinite(runs[i].x_m) || !std::isfinite(runs[i].y_m) || std::isinf(runs[i].theta_rad)) {
-      throw Error(run + " has an end pose that is not finite", {Help::measure_again_or_leave_out});
+      throw Error(run + " has an end pose that is not finite: measure it again or leave the run out");
     }
   }
 }

@@ -82,8 +82,8 @@ std::optional<Column> find_column(const CsvTable& table, const Quantity& quantit
     if (const auto to_si = factor_of(lower_case(title), quantity)) {
       if (found) {
         refuse(name, table.header.line,
-               "columns " + found->title + " and " + title + " both give " + std::string(quantity.name),
-               {Help::keep_one_column});
+               "columns " + found->title + " and " + title + " both give " + std::string(quantity.name) +
+                   ": keep one of them");
       }
       found = Column{i, title, *to_si};
     } else if (lacks_unit(lower_case(title), quantity)) {
@@ -105,7 +105,8 @@ Column require_column(const CsvTable& table, const Quantity& quantity, std::stri
 double number(const CsvRow& row, const Column& column, std::string_view name) {
   const std::string& cell = row.cells[column.index];
   const std::string where = "column " + column.title + ": ";
-  if (cell.empty()) refuse(name, row.line, where + "the cell is empty", {Help::fill_cell_or_leave_out});
+  if (cell.empty())
+    refuse(name, row.line, where + "the cell is empty: write the number or leave the run out");
   const char* const end = cell.data() + cell.size();
   // from_chars, because unlike strtod it does not depend on the locale. It accepts no plus sign, which a
   // spreadsheet may write.
@@ -116,8 +117,8 @@ double number(const CsvRow& row, const Column& column, std::string_view name) {
     refuse(name, row.line, where + "\"" + cell + "\" is not a number such as -12.5");
   }
   if (error != std::errc{} || !std::isfinite(value)) {
-    refuse(name, row.line, where + "\"" + cell + "\" is not a finite number",
-           {Help::measure_again_or_leave_out});
+    refuse(name, row.line,
+           where + "\"" + cell + "\" is not a finite number: measure it again or leave the run out");
   }
   return value * column.to_si;
 }
@@ -166,8 +167,8 @@ std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name
   for (const CsvRow& row : table.rows) {
     const auto direction = columns.direction;
     if (direction && sense_of(row, *direction, name) != sense_of(table.rows[0], *direction, name)) {
-      refuse(name, row.line, "column direction: the file mixes cw and ccw runs where one direction is wanted",
-             {Help::split_by_direction});
+      refuse(name, row.line,
+             "column direction: the file mixes cw and ccw runs where one direction is wanted: split it");
     }
     out.push_back(pose(row, columns, name));
   }

@@ -63,9 +63,8 @@ std::optional<LineScale> scale_of_lines(std::span<const LineEnd> lines, const En
     if (i < kScatterIterations) scatter = robust_scatter(sums.distances, 1);
   }
   if (!(scale > 0.5 && scale < 2))
-    throw Error(
-        "the measured lines give a scale of " + to_text(scale) + ", and a robot has one between 0.5 and 2",
-        {Help::check_units});
+    throw Error("the measured lines give a scale of " + to_text(scale) +
+                ", and a robot has one between 0.5 and 2: check the units");
   return LineScale{scale, std::sqrt(kLossOfNormal * scatter / sums.information),
                    static_cast<int>(lines.size())};
 }

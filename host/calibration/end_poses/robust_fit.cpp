@@ -128,8 +128,9 @@ double cautious(double scatter) {
 }
 
 [[noreturn]] void fail() {
-  throw Error("no pair of wheel and wheelbase ratios explains these ends of squares",
-              {Help::check_units_and_directions});
+  throw Error(
+      "no pair of wheel and wheelbase ratios explains these ends of squares: check the units, the side "
+      "length and that the clockwise and counter-clockwise runs are not exchanged");
 }
 
 }  // namespace

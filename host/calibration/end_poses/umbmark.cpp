@@ -74,8 +74,9 @@ Parameters best_fit(const EndPositions& positions, Parameters p) {
     if (step.norm() < kSettled) return p;
     if (!p.allFinite() || p.norm() > 1) break;
   }
-  throw Error("no pair of wheel and wheelbase ratios explains these end positions",
-              {Help::check_units_and_directions});
+  throw Error(
+      "no pair of wheel and wheelbase ratios explains these end positions: check the units, the side length "
+      "and that the clockwise and counter-clockwise runs are not exchanged");
 }
 
 /// The E_d and E_b whose exact replay (replay.hpp) comes closest to the measured end positions, in the sense
@@ -139,14 +140,14 @@ void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, d
   }
   require_usable(loaded);
   if (cw.empty() && ccw.empty()) {
-    throw Error("there are no runs at all", {Help::drive_both_directions});
+    throw Error(
+        "there are no runs at all: drive the square at least once clockwise and once counter-clockwise");
   }
   if (cw.empty() || ccw.empty()) {
     throw Error(std::string("there are no ") + in_words(cw.empty() ? Sense::cw : Sense::ccw) +
-                    " runs, and one direction alone cannot separate the error of the wheel diameters from "
-                    "that of the "
-                    "wheelbase",
-                {Help::drive_both_directions});
+                " runs, and one direction alone cannot separate the error of the wheel diameters from "
+                "that of the "
+                "wheelbase: drive the square at least once clockwise and once counter-clockwise");
   }
 }
 
@@ -157,14 +158,13 @@ void require_headings(std::span<const EndPose> runs, const std::string& directio
     if (lacks(runs[i])) {
       throw Error(
           (none ? "the " + direction + " runs have" : direction + " run " + std::to_string(i + 1) + " has") +
-              " no heading error, which the extended method calibrates from",
-          {Help::measure_end_headings});
+          " no heading error, which the extended method calibrates from: measure the end headings "
+          "(etheta_rad or etheta_deg), or use the method umbmark");
     }
     if (std::abs(runs[i].theta_rad) > std::numbers::pi) {
       throw Error(direction + " run " + std::to_string(i + 1) + " has a heading error of " +
-                      to_text(runs[i].theta_rad) +
-                      " rad, more than half a turn, outside the range of -180 to 180 degrees",
-                  {Help::check_units});
+                  to_text(runs[i].theta_rad) +
+                  " rad, more than half a turn, outside the range of -180 to 180 degrees: check the units");
     }
   }
 }
@@ -173,8 +173,8 @@ void require_plausible(const Ratios& r) {
   const auto plausible = [](double ratio) { return ratio > 0.5 && ratio < 2; };
   if (plausible(r.E_d) && plausible(r.E_b)) return;
   throw Error("the end poses give E_d = " + std::to_string(r.E_d) + " and E_b = " + std::to_string(r.E_b) +
-                  ", and a robot that drives a square has both between 0.5 and 2",
-              {Help::check_units_and_directions});
+              ", and a robot that drives a square has both between 0.5 and 2: check the units, the side "
+              "length and that the clockwise and counter-clockwise runs are not exchanged");
 }
 
 Vector6 means_of(const ExperimentSummary& s) {

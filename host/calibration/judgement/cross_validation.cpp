@@ -127,7 +127,7 @@ Remark CrossValidation::without(const std::vector<std::string>& held_out, const 
   std::string names;
   for (std::size_t i = 0; i < held_out.size(); ++i)
     names += (i == 0 ? "" : i + 1 < held_out.size() ? ", " : " and ") + held_out[i];
-  return {"without " + names + ", " + error.what(), error.remedy()};
+  return error.in("without " + names + ", ");
 }
 
 Verdict judge_gains(std::span<const double> gains) {

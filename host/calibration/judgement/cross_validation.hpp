@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/base/remedy.hpp"
 #include "host/calibration/judgement/before_after.hpp"
 #include "host/calibration/judgement/path_errors.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"

@@ -1,4 +1,5 @@
 #include "host/calibration/judgement/end_pose_validation.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,8 @@ CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndP
                                const WheelFactors& in_use, const Options& options) {
   CrossValidation out;
   if (cw.size() < 2 || ccw.size() < 2) {
-    out.not_judged.push_back({"there are not two squares in each direction", {Help::drive_squares}});
+    out.not_judged.push_back(
+        {"there are not two squares in each direction", JudgementProblem::too_few_squares});
     return out;
   }
   Scatter scatter;
@@ -93,7 +95,7 @@ CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndP
 void cross_validate_scale(std::span<const LineEnd> lines, const WheelFactors& in_use, const LineScale& scale,
                           CrossValidation& judged) {
   if (lines.size() < 2) {
-    judged.not_judged.push_back({"the scale comes from a single line", {Help::drive_lines}});
+    judged.not_judged.push_back({"the scale comes from a single line: drive lines or squares as well"});
     return;
   }
   const double loaded = (in_use.c_r + in_use.c_l) / 2;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"

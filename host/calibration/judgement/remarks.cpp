@@ -32,23 +32,27 @@ std::string slip_sentence(const RunFit& run) {
 
 std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
   std::vector<Remark> list;
-  for (const Remark& why : estimate.left_out) list.push_back({why.fact + "; it was left out", why.remedy});
+  for (const Remark& why : estimate.left_out) list.push_back(why.in("left out: "));
   for (const RunFit& run : estimate.runs)
-    if (run.outlier) list.push_back({outlier_sentence(run), {Help::leave_out_if_accident}});
+    if (run.outlier) list.push_back({outlier_sentence(run), JudgementProblem::run_stands_out});
   for (const RunFit& run : estimate.runs)
-    if (!run.slip_events.empty()) list.push_back({slip_sentence(run), {Help::leave_out_if_accident}});
+    if (!run.slip_events.empty()) list.push_back({slip_sentence(run), JudgementProblem::run_slipped});
   const double ratio = estimate.chi_square / estimate.degrees_of_freedom;
   const char* const noise = noise_given ? "given" : "estimated";
   if (ratio < 0.5)
     list.push_back({fmt::format("the ground truth is only {:.2g} times as far from the wheels as the {} "
                                 "noise explains, so the standard errors are too large",
                                 std::sqrt(ratio), noise),
-                    {noise_given ? Help::estimate_noise : Help::none}});
+                    noise_given ? Kind(JudgementProblem::given_noise_is_wrong) : Kind()});
   if (ratio > 1.5)
-    list.push_back({fmt::format("the ground truth is {:.1f} times as far from the wheels as the {} noise "
-                                "explains, so the standard errors are too small",
-                                std::sqrt(ratio), noise),
-                    {noise_given ? Help::estimate_noise : Help::look_for_odd_run}});
+    list.push_back(
+        {fmt::format("the ground truth is {:.1f} times as far from the wheels as the {} noise "
+                     "explains, so the standard errors are too small{}",
+                     std::sqrt(ratio), noise,
+                     noise_given ? ""
+                                 : "; look for a run whose chi²/dof is far above the others', for slip, and "
+                                   "for truth of another drive"),
+         noise_given ? Kind(JudgementProblem::given_noise_is_wrong) : Kind()});
   if (estimate.dispersion > 1)
     list.push_back(
         {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "

@@ -2,10 +2,13 @@
 
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 
 namespace astro::calibration {
+
+/// What may spoil a calibration.
+enum class JudgementProblem { too_few_squares, run_stands_out, run_slipped, given_noise_is_wrong };
 
 /// One sentence for each thing that does not fit about an estimate; empty if everything fits. `noise_given`: the noise model
 /// was given (MlOptions::noise) and not estimated.

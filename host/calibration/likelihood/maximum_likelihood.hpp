@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/calibration/likelihood/slip_events.hpp"
 #include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"
@@ -26,6 +26,8 @@
 ///         loaded while it drove, so a calibration of a calibrated robot composes by itself.
 /// Source  Kalman innovations as likelihood: Schweppe 1965; start: Censi et al. 2013 (relative_pose.hpp).
 namespace astro::calibration {
+
+enum class LikelihoodProblem { wheel_turns_backwards };
 
 struct MlOptions {
   /// True: the truth's times are already the robot's, and neither offset nor skew is estimated.

@@ -1,4 +1,5 @@
 #include "host/calibration/likelihood/start_values.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ void require_forward(const RelativePoseFit& fit) {
       throw Error(
           fmt::format("the {} wheel comes out turning backwards: its encoder or its motor is reversed",
                       wheel),
-          {Help::check_wiring});
+          LikelihoodProblem::wheel_turns_backwards);
 }
 
 /// The path of the tracked body by dead reckoning over a first stretch, which is so short that wrong factors
@@ -102,11 +103,13 @@ void require_variety(const PreparedRuns& runs) {
     rotation_rad += run.rotation_rad;
   }
   if (rotation_rad < kLeastTurn_rad)
-    throw Error("the robot never turned, so its wheelbase cannot be determined", {Help::drive_turns});
+    throw Error(
+        "the robot never turned, so its wheelbase cannot be determined: drive squares, circles or spins as "
+        "well");
   if (distance_m < 0.02 * rotation_rad)
     throw Error(
-        "the robot only turned on the spot, which determines the ratio of wheels and wheelbase but no size",
-        {Help::drive_lines});
+        "the robot only turned on the spot, which determines the ratio of wheels and wheelbase but no size: "
+        "drive lines or squares as well");
 }
 
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& loaded) {

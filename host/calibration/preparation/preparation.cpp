@@ -43,48 +43,45 @@ template <class Sample>
 void require_times(const std::string& name, const char* stream, const std::vector<Sample>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!std::isfinite(samples[i].time_s))
-      throw Error(fmt::format("{} has {} without a time", name, stream), {Help::record_again});
+      throw Error(fmt::format("{} has {} without a time: record it again", name, stream));
     const double step_s = i > 0 ? samples[i].time_s - samples[i - 1].time_s : 0;
     if (step_s < 0)
-      throw Error(fmt::format("{} has {} whose times run backwards", name, stream), {Help::record_again});
+      throw Error(fmt::format("{} has {} whose times run backwards: record it again", name, stream));
     if (step_s > kLongestPause_s)
-      throw Error(
-          fmt::format("{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was set",
-                      name, stream, step_s),
-          {Help::cut_recording});
+      throw Error(fmt::format(
+          "{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was set; cut it there",
+          name, stream, step_s));
   }
 }
 
 void require_wheels(const Trajectory& run) {
-  if (run.wheels.size() < kFewestSamples)
-    throw Error(run.name + " has hardly any odometry", {Help::record_again});
+  if (run.wheels.size() < kFewestSamples) throw Error(run.name + " has hardly any odometry: record it again");
   require_times(run.name, "odometry", run.wheels);
   for (std::size_t i = 0; i < run.wheels.size(); ++i) {
     const WheelSample& now = run.wheels[i];
     if (!std::isfinite(now.left_m) || !std::isfinite(now.right_m))
-      throw Error(run.name + " has odometry that is no number", {Help::record_again});
+      throw Error(run.name + " has odometry that is no number: record it again");
     if (i == 0) continue;
     const WheelSample& before = run.wheels[i - 1];
     const double moved_m =
         std::max(std::abs(now.left_m - before.left_m), std::abs(now.right_m - before.right_m));
     if (now.time_s - before.time_s > kLongestWheelGap_s && moved_m > kWheelGapMotion_m)
       throw Error(
-          fmt::format(
-              "{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m on an unknown path",
-              run.name, now.time_s - before.time_s, moved_m),
-          {Help::leave_out_or_record_again});
+          fmt::format("{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m on an unknown "
+                      "path: leave it out, or record it again",
+                      run.name, now.time_s - before.time_s, moved_m));
   }
 }
 
 void require_samples(const Trajectory& run) {
-  if (run.wheels.size() < 2) throw Error(run.name + " has no odometry", {Help::record_again});
+  if (run.wheels.size() < 2) throw Error(run.name + " has no odometry: record it again");
   const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
     return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
   });
   if (finite < kFewestSamples)
     throw Error(fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive",
                             run.name, finite),
-                {Help::use_end_poses});
+                PreparationProblem::too_little_truth);
   require_wheels(run);
   require_times(run.name, "ground truth", run.truth);
 }
@@ -174,13 +171,15 @@ void classify_motion(PreparedRun& run, std::span<const WheelState> wheels, const
 
 void require_motion(const PreparedRun& run) {
   if (run.truth.size() < kFewestSamples)
-    throw Error(fmt::format("{}: only {} samples of ground truth fall into the time of the drive",
-                            run.source->name, run.truth.size()),
-                {Help::check_recorded_together});
+    throw Error(
+        fmt::format("{}: only {} samples of ground truth fall into the time of the drive: check that both "
+                    "were recorded together",
+                    run.source->name, run.truth.size()));
   if (run.distance_m < kShortestDrive_m && run.rotation_rad < kSmallestTurn_rad)
-    throw Error(fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth",
-                            run.source->name, run.distance_m, degrees(run.rotation_rad)),
-                {Help::leave_out_or_drive_more});
+    throw Error(
+        fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth; drive at least a metre "
+                    "or a turn, or leave it out",
+                    run.source->name, run.distance_m, degrees(run.rotation_rad)));
 }
 
 /// `before`: the clock of a run before, of which the skew is taken if it fits.
@@ -211,9 +210,8 @@ bool is_blind_spin(const Trajectory& run, const ClockFit& clock, double wheelbas
 
 Remark why_blind(const Trajectory& run) {
   return {run.name +
-              " turned on the spot under positions that stand still, which determine neither its clock "
-              "nor how far it turned",
-          {Help::export_orientation_or_mount_off_axis}};
+          " turned on the spot under positions that stand still, which determine neither its clock "
+          "nor how far it turned: export the orientation of the body, too, or mount it away from the axis"};
 }
 
 void require_clock(const Trajectory& run, const ClockFit& clock) {
@@ -221,11 +219,11 @@ void require_clock(const Trajectory& run, const ClockFit& clock) {
     throw Error(
         run.name +
             ": the motions of wheels and ground truth have nothing in common at any offset of their clocks",
-        {Help::check_run_and_wiring});
+        PreparationProblem::nothing_in_common);
   if (clock.rival_offset_s && clock.correlation >= kLeastCorrelation)
     throw Error(fmt::format("{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s",
                             run.name, clock.offset_s, *clock.rival_offset_s),
-                {Help::settle_clock});
+                PreparationProblem::clock_unsettled);
 }
 
 }  // namespace

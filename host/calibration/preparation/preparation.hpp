@@ -4,13 +4,22 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/calibration/motion/clock_search.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/prepared_run.hpp"
 
 /// Prepares recorded runs for the filter, or says in one sentence why a run cannot be used.
 namespace astro::calibration {
+
+/// What keeps a run from being calibrated from.
+enum class PreparationProblem {
+  too_little_truth,
+  mirrored,
+  heading_stays,
+  nothing_in_common,
+  clock_unsettled
+};
 
 /// Which samples of truth are used.
 enum class Density {

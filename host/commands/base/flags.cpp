@@ -1,12 +1,18 @@
 #include "host/commands/base/flags.hpp"
+#include "host/commands/base/advice.hpp"
+#include "host/console/console.hpp"
 
 namespace astro::commands {
+namespace {
 
-void add_force(console::Command command, bool& force) {
-  command.add_flag("--force", force,
-                   "upload also what is not shown to be better, a change of more\n"
-                   "than 10 %, and what is of another robot, of another wheel or\n"
-                   "on top of other parameters");
+constexpr Advice kFlagsAdvice[] = {
+    {console::ConsoleProblem::nobody_agrees, ": give --yes to agree beforehand"}};
+
+}  // namespace
+
+void add_yes(console::Command command, bool& yes, const char* answers) {
+  advise(kFlagsAdvice);
+  command.add_flag("--yes,-y", yes, answers);
 }
 
 void add_json_flag(console::Command command, bool& json) {

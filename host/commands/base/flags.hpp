@@ -5,9 +5,8 @@
 /// Options that mean the same in every command.
 namespace astro::commands {
 
-/// Adds --force to a command that uploads a calibration: see experiment::objections and agreed_to_load
-/// (host/commands/shared/parameter_load.hpp).
-void add_force(console::Command command, bool& force);
+/// Adds --yes for a question that otherwise stands before what a command does; `answers` says which.
+void add_yes(console::Command command, bool& yes, const char* answers);
 
 /// Adds --json.
 void add_json_flag(console::Command command, bool& json);

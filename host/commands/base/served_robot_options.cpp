@@ -1,5 +1,5 @@
 #include "host/commands/base/served_robot_options.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 
@@ -211,6 +211,13 @@ std::uint64_t serial_number_of(const simulation::ServerConfig& server) {
   return hash;
 }
 
+constexpr Advice kServedRobotAdvice[] = {
+    {simulation::ServerProblem::path_in_use, ": stop it or choose another --pty"},
+    {simulation::ServerProblem::path_taken, ": choose another path for --pty"},
+    {simulation::ServerProblem::path_refused, ": choose another path for --pty"},
+    {simulation::ServerProblem::path_too_long, ": choose a shorter one for --pty"},
+};
+
 }  // namespace
 
 // Wheels and wheelbase have the errors of the robot of the reference measurements.
@@ -254,6 +261,7 @@ void serve(simulation::Server& server, const std::string& what) {
 }
 
 void add_sim_options(console::Command command, SimOptions& options) {
+  advise(kServedRobotAdvice);
   command.add_option("--pty", options.server.pty, "path to put the robot at; default: where 'ports' looks")
       .type_name("PATH");
   add_robot_options(command, options.robot);

@@ -165,7 +165,7 @@ void add_calibrate_check(console::Command calibrate) {
       "  astrolabe calibrate check --wheels ticks.csv --truth take.csv --robot robot.toml --with calib.toml");
   command.callback([options] {
     const std::vector<DeadReckoning> all = evaluated(*options);
-    for (const Remark& why : all.front().errors.left_out) console::say(in_words(why) + "; it was left out");
+    for (const Remark& why : all.front().errors.left_out) console::say("left out: " + in_words(why));
     if (options->json) {
       print_json(json_of(all));
     } else {

@@ -3,10 +3,11 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/export.hpp"
 
 namespace astro::commands {
@@ -71,9 +72,16 @@ void run(const ExportOptions& options) {
   console::say("written to " + options.to.string());
 }
 
+constexpr Advice kCalibrateExportAdvice[] = {
+    {experiment::AnalysisProblem::no_calibration, ": name a file that 'astrolabe calibrate' wrote"},
+    {experiment::AnalysisProblem::no_wheel_separation, ": give --wheel-separation"},
+    {experiment::AnalysisProblem::no_wheel_radius, ": give --wheel-radius"},
+};
+
 }  // namespace
 
 void add_calibrate_export(console::Command calibrate) {
+  advise(kCalibrateExportAdvice);
   const auto options = std::make_shared<ExportOptions>();
   const console::Command command =
       calibrate.add_subcommand("export", "write a calibration for ROS 2, or as JSON or TOML");

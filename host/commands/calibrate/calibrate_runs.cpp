@@ -5,6 +5,10 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/calibration/judgement/remarks.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/preparation/preparation.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
@@ -12,6 +16,7 @@
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/method_option.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
 #include "host/experiment/files/run_set.hpp"
@@ -51,9 +56,44 @@ experiment::Calibration calibrate_runs(const RunsOptions& options) {
   return found;
 }
 
+constexpr Advice kCalibrateRunsAdvice[] = {
+    {calibration::JudgementProblem::too_few_squares, ": drive some with 'astrolabe umbmark'"},
+    {calibration::LikelihoodProblem::wheel_turns_backwards,
+     "; 'astrolabe check-wiring' finds crossed or reversed wires"},
+    {calibration::PreparationProblem::mirrored, "; 'astrolabe check-wiring' finds crossed or reversed wires"},
+    {calibration::PreparationProblem::heading_stays,
+     ": export the orientation, too, or see what 'astrolabe check-wiring' finds"},
+    {experiment::AnalysisProblem::run_unusable,
+     ": leave it out (of a folder: 'astrolabe calibrate runs --without {0}')"},
+    {experiment::AnalysisProblem::run_without_truth,
+     ": leave it out with 'astrolabe calibrate runs --without {0}', or use --method robust, extended or "
+     "umbmark"},
+    {experiment::RunSetProblem::same_recording, ": leave one out with --without {0}"},
+    {calibration::JudgementProblem::run_stands_out,
+     "; look there, and if it was an accident leave the run out (of a folder: 'astrolabe calibrate runs "
+     "--without ...')"},
+    {calibration::JudgementProblem::run_slipped,
+     "; look there, and if it was an accident leave the run out (of a folder: 'astrolabe calibrate runs "
+     "--without ...')"},
+    {calibration::JudgementProblem::given_noise_is_wrong,
+     ": let the noise be estimated (without --K, --sigma-xy and --sigma-theta)"},
+    {calibration::PreparationProblem::too_little_truth,
+     ": choose --method robust, extended or umbmark, which use end poses alone"},
+    {experiment::AnalysisProblem::end_poses_only,
+     ": choose --method robust, extended or umbmark, which use end poses alone"},
+    {calibration::PreparationProblem::nothing_in_common,
+     ": check that they belong to the same drive, with 'astrolabe check-wiring' that no encoder is reversed, "
+     "and in files of other programs whether each row of the wheels is the travel since the row before "
+     "(--per-interval)"},
+    {calibration::PreparationProblem::clock_unsettled,
+     ": record wheels and ground truth from the rest before the drive to the rest after it, or give the "
+     "truth the robot's times and --clock known"},
+};
+
 }  // namespace
 
 void add_calibrate_runs(console::Command calibrate) {
+  advise(kCalibrateRunsAdvice);
   const auto options = std::make_shared<RunsOptions>();
   const console::Command command =
       calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");

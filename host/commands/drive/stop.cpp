@@ -1,11 +1,13 @@
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/drive/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::commands {
@@ -40,9 +42,15 @@ void run(StopOptions& options) {
   console::say("the motors are off and stay off until 'astrolabe faults --clear'");
 }
 
+constexpr Advice kStopAdvice[] = {
+    {robot::DriveProblem::armed_for_another, ": end that one, or 'astrolabe stop' ends its drive"},
+    {robot::DriveProblem::driven_by_another, ": end that one, or 'astrolabe stop' ends its drive"},
+};
+
 }  // namespace
 
 void add_stop(console::Command app) {
+  advise(kStopAdvice);
   const auto options = std::make_shared<StopOptions>();
   const console::Command command = app.add_subcommand(
       "stop", "let the robot ramp to rest and disarm it, also while another program drives it");

@@ -10,7 +10,7 @@
 #include "host/base/interrupted.hpp"
 #include "host/base/text/columns.hpp"
 #include "host/base/text/trimmed.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/experiment/programme_work.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/console/console.hpp"
@@ -37,7 +37,8 @@ std::vector<fs::path> paths_in(const std::string& answer) {
 /// The robot drives the same in each phase, so that the film of another one would fit.
 void refuse_other(const film::NamedFilm& film, const FilmRequest& request) {
   if (std::find(request.others.begin(), request.others.end(), film.track.fingerprint) != request.others.end())
-    throw Error("'" + film.name + "' shows the runs of an earlier phase", {Help::name_film_of_runs});
+    throw Error("'" + film.name +
+                "' shows the runs of an earlier phase: name the film that shows these runs");
 }
 
 /// False, after saying why, if the films do not show the runs.
@@ -102,8 +103,10 @@ void take_films(const std::string& phase, experiment::RunSet& set, const FilmReq
     }
     const std::vector<fs::path> paths = paths_in(answer);
     if (paths.empty())
-      throw Error(fmt::format("all runs of phase '{}' are driven, but their film is missing", phase),
-                  {Help::resume_with_film});
+      throw Error(
+          fmt::format("all runs of phase '{}' are driven, but their film is missing: the same command with "
+                      "--truth film:FILE goes on with it",
+                      phase));
     if (taken(paths, set, request)) return;
   }
 }

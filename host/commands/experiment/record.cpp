@@ -5,6 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/experiment/commands.hpp"
 #include "host/commands/experiment/record_programme.hpp"
 #include "host/commands/shared/connection.hpp"
@@ -19,6 +20,7 @@
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/csv_export.hpp"
+#include "host/recording/run_file.hpp"
 #include "host/recording/run_writer.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
@@ -150,14 +152,21 @@ void listen(RecordOptions& options) {
   streamed.close();
   console::say(fmt::format("{} odometry and {} truth samples", recorded.odometry, recorded.truth));
   if (recorded.warning)
-    throw Error(fmt::format("{}; what came before is in '{}'", recorded.warning->fact, options.out.string()),
-                recorded.warning->remedy);
+    throw Error(
+        fmt::format("{}; what came before is in '{}'", recorded.warning->sentence, options.out.string()),
+        recorded.warning->kind, recorded.warning->values);
   print_path(fs::absolute(options.out));
 }
+
+constexpr Advice kRecordAdvice[] = {
+    {recording::RecordingProblem::none_in_folder,
+     ": record some with 'astrolabe record' or 'astrolabe umbmark', or name another folder"},
+};
 
 }  // namespace
 
 void add_record(console::Command app) {
+  advise(kRecordAdvice);
   const auto options = std::make_shared<RecordOptions>();
   const console::Command command =
       app.add_subcommand("record", "drive runs and record them, or record while another program drives");

@@ -1,5 +1,5 @@
 #include "host/commands/experiment/record_programme.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 

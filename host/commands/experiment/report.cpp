@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "host/commands/base/advice.hpp"
 #include "host/commands/experiment/commands.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/film_truth.hpp"
@@ -10,6 +11,7 @@
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/report_input.hpp"
+#include "host/experiment/files/journal.hpp"
 #include "host/import/drives/drive_report.hpp"
 #include "host/report/report.hpp"
 
@@ -44,9 +46,17 @@ report::ReportInput of_drives(const experiment::RunSet& set, const std::filesyst
   return importing::drive_report(set, found, factors);
 }
 
+constexpr Advice kReportAdvice[] = {
+    {experiment::JournalProblem::no_experiment,
+     ": name the --out of 'astrolabe umbmark', or two or more folders of recordings"},
+    {experiment::JournalProblem::damaged,
+     ": the recordings beside it can still be calibrated with 'astrolabe calibrate runs'"},
+};
+
 }  // namespace
 
 void add_report(console::Command app) {
+  advise(kReportAdvice);
   struct Options {
     ResultsOption results;
     ImportOptions import;

@@ -7,8 +7,8 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/experiment/commands.hpp"
 #include "host/commands/experiment/film_dialogue.hpp"
 #include "host/commands/experiment/tape_dialogue.hpp"
@@ -28,12 +28,16 @@
 #include "host/console/options.hpp"
 #include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/drive/experiment.hpp"
+#include "host/experiment/drive/open_journal.hpp"
 #include "host/experiment/files/method_names.hpp"
+#include "host/experiment/files/plan.hpp"
 #include "host/report/report.hpp"
+#include "host/wall/wall_robot.hpp"
 
 namespace astro::commands {
 namespace {
@@ -197,9 +201,39 @@ void run(UmbmarkOptions& options) {
   conclude(results, report, options.json);
 }
 
+constexpr Advice kUmbmarkAdvice[] = {
+    {wall::WallProblem::runs_backwards, "; 'astrolabe check-wiring' finds crossed or reversed wires"},
+    {experiment::AnalysisProblem::no_squares, ": drive some with 'astrolabe umbmark'"},
+    {experiment::AnalysisProblem::no_phase_complete, ": 'astrolabe umbmark --out {0}' goes on from there"},
+    {experiment::ExperimentProblem::not_uploaded, ": 'astrolabe umbmark --out {0}' goes on from there"},
+    {experiment::ExperimentProblem::other_settings,
+     ": give the same ones to go on with it, or another --out"},
+    {experiment::ExperimentProblem::other_robot, ": choose another --out"},
+    {experiment::ExperimentProblem::cannot_go_on, ": choose another --out"},
+    {experiment::ExperimentProblem::other_factors_loaded, ": load those, or choose another --out"},
+    {experiment::ExperimentProblem::precision_unknown, ": give --runs in place of --until"},
+    {experiment::ExperimentProblem::truth_missing,
+     "; the same command goes on with its ground truth, at a terminal or with all answers piped in"},
+    {experiment::ExperimentProblem::broken_off,
+     ": put it on its start mark; the same command with --out {0} drives that run again"},
+    {experiment::ExperimentProblem::parameters_kept,
+     "; 'astrolabe calibrate runs {0}' shows each run, and the same command drives those again whose "
+     "recordings are removed there"},
+    {experiment::PlanProblem::order_of_open_ended, ": leave out --order"},
+    {experiment::PlanProblem::method_without_precision, ": leave out --until or --method {0}"},
+    {experiment::PlanProblem::truth_without_precision,
+     ": give --runs in place of --until, or another source than --truth {0}"},
+    {wall::WallProblem::not_at_wall, "; the same command goes on"},
+    {wall::WallProblem::journal_damaged, ": choose another --out"},
+    {wall::WallProblem::other_robot, ": choose another --out"},
+    {wall::WallProblem::other_wheel, ": choose another --out"},
+    {wall::WallProblem::other_settings, ": give the same ones to go on with it, or another --out"},
+};
+
 }  // namespace
 
 void add_umbmark(console::Command app) {
+  advise(kUmbmarkAdvice);
   const auto options = std::make_shared<UmbmarkOptions>();
   const console::Command command = app.add_subcommand(
       "umbmark", "the whole experiment: squares, calibration, upload, squares again, report");

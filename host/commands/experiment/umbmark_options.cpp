@@ -1,4 +1,5 @@
 #include "host/commands/experiment/umbmark_options.hpp"
+#include "host/commands/shared/parameter_load.hpp"
 
 #include "host/commands/base/flags.hpp"
 #include "host/console/options.hpp"
@@ -91,7 +92,7 @@ void add_umbmark_options(console::Command command, UmbmarkOptions& options) {
   not_of_wall("--pause", command.add_flag("--pause", options.pause,
                                           "wait for Enter before each run (always with --truth manual)"));
   add_wall_options(command, options.wall);
-  command.add_flag("--yes,-y", options.yes, "upload without asking what is better, or cannot be judged");
+  add_yes(command, options.yes, "upload without asking what is better, or cannot be judged");
   add_force(command, options.force);
   command.add_flag("--json", options.json, "print the result as one JSON object");
 }

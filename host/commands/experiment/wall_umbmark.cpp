@@ -8,7 +8,7 @@
 
 #include "host/base/interrupted.hpp"
 #include "host/base/text/columns.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/experiment/wall_dialogue.hpp"
 #include "host/commands/shared/parameter_load.hpp"
@@ -56,7 +56,8 @@ bool load(robot::Client& client, const experiment::ParameterFile& file, const st
   if (experiment::advises_against(file.verdict) && nobody_to_ask && !settings.force) return false;
   const LoadResult loaded =
       load_parameters(client, robot::RemoteParameters::fetch(client), file, {settings.yes, settings.force});
-  if (loaded.declined) throw Error("nothing was changed", {Help::load_later, path.string()});
+  if (loaded.declined)
+    throw Error("nothing was changed; 'astrolabe upload " + path.string() + "' loads it later");
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
     throw Error(loaded.report->remark());
   if (loaded.report) console::say(in_words(loaded.report->remark()));

@@ -1,4 +1,6 @@
 #include "host/commands/live/foxglove_options.hpp"
+#include "host/live/foxglove/origin.hpp"
+#include "host/live/foxglove/server.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/base/socket.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/live/foxglove/origin.hpp"
@@ -39,6 +41,11 @@ std::string check_address(const std::string& word) {
   }
 }
 
+constexpr Advice kFoxgloveAdvice[] = {
+    {foxglove::ServerProblem::port_taken, ": choose another port with --listen"},
+    {foxglove::OriginProblem::refused, "; --allow-origin '{0}' allows it"},
+};
+
 }  // namespace
 
 foxglove::Address foxglove_address_in(const std::string& word) {
@@ -61,6 +68,7 @@ foxglove::Address foxglove_address_in(const std::string& word) {
 }
 
 void add_foxglove_options(console::Command command, FoxgloveOptions& options) {
+  advise(kFoxgloveAdvice);
   const console::Option wanted = command.add_flag(
       "--foxglove", options.wanted, "serve viewers that speak the Foxglove\nWebSocket protocol");
   options.listening = command

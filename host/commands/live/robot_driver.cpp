@@ -1,4 +1,5 @@
 #include "host/commands/live/robot_driver.hpp"
+#include "host/live/driver/robot_parameter_table.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,7 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/motion/trajectory.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
@@ -39,7 +40,7 @@ void take_calibration(const std::filesystem::path& path, live::DriverOptions& op
 
 /// Who called a service can call another one.
 std::string words_for_nodes(const Error& error) {
-  if (error.remedy().help == Help::clear_faults)
+  if (error.kind() == Kind(robot::RobotProblem::faulted))
     return std::string(error.what()) + "; remove its cause, then call clear_faults";
   return in_words(error);
 }
@@ -101,6 +102,10 @@ live::CommandType command_type_from(const ros2::msg::Parameter& parameter) {
   return static_cast<live::CommandType>(found - names.begin());
 }
 
+constexpr Advice kRobotDriverAdvice[] = {
+    {live::TableProblem::needs_confirmation, "; 'astrolabe params set {0}' asks before it sets them"},
+};
+
 }  // namespace
 
 live::Names names_of(const RobotDriverOptions& options) {
@@ -144,6 +149,7 @@ std::string what_is_wrong(const ros2::NodeName& node) {
 }
 
 void add_robot_driver_options(console::Command command, RobotDriverOptions& options) {
+  advise(kRobotDriverAdvice);
   add_connection(command, options.connection);
   command.add_option("--namespace", options.node_namespace, "namespace of the node; its frames begin with it")
       .type_name("NAME")

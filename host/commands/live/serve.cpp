@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/live/commands.hpp"
 #include "host/commands/live/foxglove_options.hpp"
 #include "host/commands/live/robot_driver.hpp"

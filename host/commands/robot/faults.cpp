@@ -9,6 +9,7 @@
 #include "common/protocol/fault_log.hpp"
 #include "common/safety/fault.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
@@ -16,6 +17,7 @@
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
+#include "host/robot/client/refusal.hpp"
 
 namespace astro::commands {
 namespace {
@@ -123,9 +125,14 @@ void run(FaultsOptions& options) {
   if (options.clear && report.latched != 0) console::say("cleared; the robot stays disarmed");
 }
 
+constexpr Advice kFaultsAdvice[] = {
+    {robot::RobotProblem::faulted, "; remove its cause, then run 'astrolabe faults --clear'"},
+};
+
 }  // namespace
 
 void add_faults(console::Command app) {
+  advise(kFaultsAdvice);
   const auto options = std::make_shared<FaultsOptions>();
   const console::Command command =
       app.add_subcommand("faults", "show what stopped the robot, and release it");

@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
+#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/robot/loader.hpp"
 #include "host/commands/shared/connection.hpp"
@@ -131,9 +132,16 @@ void run(FlashOptions& options) {
                            robot::firmware_version(client->robot()), before.rows().size()));
 }
 
+constexpr Advice kFlashAdvice[] = {
+    {ImageProblem::unreadable, ": build one with './dev firmware'"},
+    {ImageProblem::too_large, ": build one with './dev firmware'"},
+    {ImageProblem::of_other_board, ": build one with './dev firmware'"},
+};
+
 }  // namespace
 
 void add_flash(console::Command app) {
+  advise(kFlashAdvice);
   const auto options = std::make_shared<FlashOptions>();
   const console::Command command =
       app.add_subcommand("flash", "load new firmware into the robot, which must be disarmed");
@@ -141,7 +149,7 @@ void add_flash(console::Command app) {
       .type_name("FILE")
       .capture_default_str();
   command.add_flag("--button", options->button, "do not contact the robot: a person presses its button");
-  command.add_flag("--yes", options->yes, "flash also what is not Astrolabe's, or not for this board");
+  add_yes(command, options->yes, "flash also what is not Astrolabe's, or not for this board");
   add_connection(command, options->connection);
   console::examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",
                               "astrolabe flash --button"});

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/robot/monitor_view.hpp"
 #include "host/commands/shared/connection.hpp"

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/parameter_load.hpp"
@@ -18,6 +18,7 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/import/drives/robot_geometry.hpp"
+#include "host/robot/parameters/parameters.hpp"
 #include "host/robot/parameters/upload.hpp"
 
 namespace astro::commands {
@@ -179,10 +180,6 @@ Work without_client(void (*work)(const ParamsOptions&, RemoteParameters&)) {
   return [work](robot::Client&, ParamsOptions& options, RemoteParameters& robot) { work(options, robot); };
 }
 
-void add_yes_flag(console::Command command, const std::shared_ptr<ParamsOptions>& options) {
-  command.add_flag("--yes,-y", options->yes, "do not ask");
-}
-
 void add_readers(console::Command params, const std::shared_ptr<ParamsOptions>& options) {
   const console::Command all =
       add(params, "list", "show all parameters; * marks those that are not at their default", options,
@@ -225,7 +222,7 @@ void add_writers(console::Command params, const std::shared_ptr<ParamsOptions>& 
                      "astrolabe params import diff_drive.yaml"});
   add_force(file, options->force);
   for (const console::Command command : {some, file}) {
-    add_yes_flag(command, options);
+    add_yes(command, options->yes, "do not ask");
     add_json_flag(command, options->json);
   }
 }
@@ -237,13 +234,19 @@ void add_keepers(console::Command params, const std::shared_ptr<ParamsOptions>& 
   const console::Command factory =
       add(params, "defaults", "put all parameters back to their defaults", options, without_client(defaults));
   console::examples(factory, {"astrolabe params defaults", "astrolabe params defaults --yes"});
-  add_yes_flag(factory, options);
+  add_yes(factory, options->yes, "do not ask");
   for (const console::Command command : {keep, factory}) add_json_flag(command, options->json);
 }
+
+constexpr Advice kParamsAdvice[] = {
+    {robot::ParameterProblem::unknown, ": 'astrolabe params list' shows those it has"},
+    {robot::ParameterProblem::changed_by_another, ": 'astrolabe params list' shows what it has"},
+};
 
 }  // namespace
 
 void add_params(console::Command app) {
+  advise(kParamsAdvice);
   const auto options = std::make_shared<ParamsOptions>();
   const console::Command command =
       app.add_subcommand("params", "show, change, save and load the robot's parameters");

@@ -1,13 +1,14 @@
 #include <memory>
 
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/robot/client/discovery.hpp"
 #include "host/robot/client/handshake.hpp"
+#include "host/robot/port/open_transport.hpp"
 
 namespace astro::commands {
 namespace {
@@ -56,9 +57,14 @@ void run(const PortsOptions& options) {
   show(found);
 }
 
+constexpr Advice kPortsAdvice[] = {
+    {robot::PortProblem::none_named, ": 'astrolabe ports' lists the robots that are here"},
+};
+
 }  // namespace
 
 void add_ports(console::Command app) {
+  advise(kPortsAdvice);
   const auto options = std::make_shared<PortsOptions>();
   const console::Command command =
       app.add_subcommand("ports", "find robots at serial ports, and your simulators");

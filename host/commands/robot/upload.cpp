@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/parameter_load.hpp"
@@ -60,7 +60,7 @@ void add_upload(console::Command app) {
   command.add_option("file", options->file, "calib.toml of 'calibrate', or a file of 'params export'")
       .required();
   add_connection(command, options->connection);
-  command.add_flag("--yes,-y", options->yes, "do not ask; loads nothing that is not shown to be better");
+  add_yes(command, options->yes, "do not ask; loads nothing that is not shown to be better");
   add_force(command, options->force);
   command.add_flag("--json", options->json, "print what the robot now holds as one JSON object");
   command.footer(

@@ -8,7 +8,7 @@
 #include "host/base/text/columns.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"

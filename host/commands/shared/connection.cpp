@@ -1,5 +1,5 @@
 #include "host/commands/shared/connection.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/command_line.hpp"
 #include "host/recording/run_file.hpp"
 

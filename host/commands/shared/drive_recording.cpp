@@ -1,5 +1,5 @@
 #include "host/commands/shared/drive_recording.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 

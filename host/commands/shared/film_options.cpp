@@ -1,4 +1,6 @@
 #include "host/commands/shared/film_options.hpp"
+#include "host/commands/base/advice.hpp"
+#include "host/film/track/figure_doubts.hpp"
 
 #include <fmt/format.h>
 
@@ -41,9 +43,21 @@ std::optional<film::FilmFigures::Length> tape_in(const std::string& text) {
   return film::FilmFigures::Length{static_cast<int>(*from), static_cast<int>(*to), *length};
 }
 
+constexpr Advice kFilmAdvice[] = {
+    {film::FilmProblem::distance_to_robot, ": correct --tape {0}=..., or leave it out"},
+    {film::FilmProblem::distance_to_unseen_tag, ": correct --tape {0}=..., or leave it out"},
+    {film::FilmProblem::other_tag_moves, ": if that is on the robot, give --robot-tag {0}"},
+    {film::FilmProblem::no_distance,
+     "; measure one, best from the centre of one floor tag to that of another three metres away, and give it "
+     "with --tape"},
+    {film::FilmProblem::no_height, ": measure it and give it with --tag-height"},
+    {film::FilmProblem::unusual_height, ": measure it and give it with --tag-height"},
+};
+
 }  // namespace
 
 void add_film_options(console::Command command, FilmOptions& options, const std::string& prefix) {
+  advise(kFilmAdvice);
   command.add_option("--robot-tag", options.robot_tag, prefix + "the number of the robot's tag (tag36h11)")
       .type_name("ID")
       .check(console::whole(0, 586))

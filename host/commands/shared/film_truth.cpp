@@ -5,13 +5,18 @@
 #include <cmath>
 #include <string_view>
 
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/wrong_usage.hpp"
 
 namespace astro::commands {
 namespace {
+
+constexpr Advice kFilmTruthAdvice[] = {
+    {film::FilmedRunProblem::no_odometry,
+     ": leave it out (of a folder: 'astrolabe calibrate runs --without {0}')"},
+};
 
 namespace fs = std::filesystem;
 
@@ -36,6 +41,7 @@ std::optional<fs::path> film_named(const std::string& word) {
 }
 
 void add_film_truth(console::Command command, FilmTruthOption& option) {
+  advise(kFilmTruthAdvice);
   command
       .add_option("--truth", option.films,
                   "film:FILE takes the ground truth from a phone film of\nprinted tags (repeatable) in place "

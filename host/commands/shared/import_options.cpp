@@ -1,4 +1,7 @@
 #include "host/commands/shared/import_options.hpp"
+#include "host/import/drives/robot_geometry.hpp"
+#include "host/import/wheels/unclear_choice.hpp"
+#include "host/truth/files/body_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +11,7 @@
 #include <utility>
 
 #include "host/base/text/numbers.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
@@ -85,6 +88,35 @@ ImportChoices choices_of(const ImportOptions& options) {
   return choices;
 }
 
+constexpr Advice kImportAdvice[] = {
+    {importing::ImportProblem::sizes_not_described, ": give --wheel-diameter, or a file with --robot"},
+    {importing::ImportProblem::no_wheel_diameter, ": give --wheel-diameter, or a file with --robot"},
+    {importing::ImportProblem::no_wheelbase, ": give --wheelbase, or a file with --robot"},
+    {importing::ImportProblem::no_counts_per_turn, ": give --counts-per-turn, or a file with --robot"},
+    {importing::ImportProblem::turns_too_far,
+     ": check the unit of the wheels, and whether their rows are travel --per-interval"},
+    {importing::ImportProblem::leaps,
+     "; cut the recording there, or check the unit of the wheels and whether their rows are travel "
+     "--per-interval"},
+    {importing::ImportProblem::below_origin,
+     ": give --swap-wheels if left and right are exchanged, or --up with the axis of the tracker that points "
+     "up"},
+    {importing::ImportProblem::turns_against_wheels,
+     ": give --swap-wheels if left and right are exchanged, or --up with the axis of the tracker that points "
+     "up"},
+    {importing::ImportProblem::turns_against_stated_up,
+     ": give --swap-wheels if left and right are exchanged, or another axis to --up"},
+    {importing::WheelProblem::columns_unclear,
+     ": describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
+     "..._m; - for one that is not used)"},
+    {importing::WheelProblem::joints_unclear, ": name the wheels with --joints LEFT,RIGHT"},
+    {importing::WheelProblem::topic_unclear, ": name one with --wheels-topic"},
+    {importing::WheelProblem::poses_unclear,
+     ": name one with --truth-topic, and its frames with --truth-frames PARENT,CHILD"},
+    {importing::WheelProblem::controller_unclear, ": name one with --controller"},
+    {truth::BodyProblem::unknown, ": name one of them with --body"},
+};
+
 }  // namespace
 
 void add_drive_files(console::Command command, ImportOptions& options) {
@@ -138,6 +170,7 @@ void add_tracker_choices(console::Command command, ImportOptions& options) {
 }
 
 void add_geometry_choices(console::Command command, ImportOptions& options) {
+  advise(kImportAdvice);
   command
       .add_option(
           "--robot", options.robot_file,

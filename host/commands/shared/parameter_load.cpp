@@ -1,4 +1,5 @@
 #include "host/commands/shared/parameter_load.hpp"
+#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,17 @@
 namespace astro::commands {
 namespace {
 
+constexpr Advice kUploadAdvice[] = {
+    {experiment::UploadProblem::of_other_robot, ": calibrate this one (--force uploads all the same)"},
+    {experiment::UploadProblem::incomplete, ": calibrate again (--force uploads all the same)"},
+    {experiment::UploadProblem::foreign_e, ": calibrate again (--force uploads all the same)"},
+    {experiment::UploadProblem::of_other_wheel,
+     ": load the old values or drive again (--force uploads all the same)"},
+    {experiment::UploadProblem::of_other_factors,
+     ": load the old values or drive again (--force uploads all the same)"},
+    {experiment::UploadProblem::suspicious, ": check units, side and robot (--force uploads all the same)"},
+};
+
 /// Writes values to flash that are in force already, because they may only have been tried.
 void save_tried_values(robot::RemoteParameters robot, const experiment::ParameterValues& values) {
   for (const auto& [name, value] : values) robot.stage(name, value);
@@ -19,6 +31,14 @@ void save_tried_values(robot::RemoteParameters robot, const experiment::Paramete
 }
 
 }  // namespace
+
+void add_force(console::Command command, bool& force) {
+  advise(kUploadAdvice);
+  command.add_flag("--force", force,
+                   "upload also what is not shown to be better, a change of more\n"
+                   "than 10 %, and what is of another robot, of another wheel or\n"
+                   "on top of other parameters");
+}
 
 bool warn_of_far_changes(const robot::RemoteParameters& robot, const std::vector<robot::Change>& changes) {
   const std::vector<std::string> far = robot::far_changes(robot, changes);
@@ -55,7 +75,7 @@ LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters&
   for (const Remark& why :
        experiment::objections(robot, experiment::identity_of(client.robot()), file, loaded.changes)) {
     if (!options.force) throw Error(why);
-    console::say("warning: " + why.fact);
+    console::say("warning: " + why.sentence);
   }
   warn_of_far_changes(robot, loaded.changes);
   if (const std::string note = experiment::insignificance(loaded.changes, file.standard_errors);
@@ -64,7 +84,8 @@ LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters&
   const bool advised_against = experiment::advises_against(file.verdict);
   if (advised_against) console::say("warning: " + file.verdict_sentence);
   if (!agreed_to_load(file.verdict, options)) {
-    if (advised_against) throw Error("nothing was changed", {Help::override_advice});
+    if (advised_against)
+      throw Error("nothing was changed: it is advised against (--force uploads all the same)");
     loaded.declined = true;
     return loaded;
   }

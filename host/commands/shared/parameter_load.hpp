@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/console/command_line.hpp"
 #include "host/experiment/drive/change_guard.hpp"
 #include "host/robot/parameters/upload.hpp"
 
@@ -11,6 +12,9 @@ namespace astro::commands {
 struct LoadOptions {
   bool yes = false, force = false;
 };
+
+/// Adds --force to a command that uploads a calibration.
+void add_force(console::Command command, bool& force);
 
 /// Whether a calibration is loaded: asks at the terminal, unless `yes`. One that its drives speak against (worse, or not
 /// shown to be better) is loaded only if a person at a terminal says so, or with `force` beside `yes`; one that is worse

@@ -4,7 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/press_enter.hpp"
 #include "host/console/console.hpp"
@@ -14,6 +14,10 @@
 
 namespace astro::commands {
 namespace {
+
+constexpr Advice kTruthAdvice[] = {
+    {truth::SocketProblem::not_served, ": --truth sim needs a robot started with 'astrolabe sim'"},
+};
 
 std::unique_ptr<truth::Source> open_tracker(const std::string& address) {
   auto source = std::make_unique<truth::LiveSource>(truth::tracker_url_in(address));
@@ -31,6 +35,7 @@ std::string choice_of(const std::vector<std::string>& words) {
 }  // namespace
 
 console::Check truth_source(std::vector<std::string> words) {
+  advise(kTruthAdvice);
   return [words = std::move(words)](const std::string& word) -> std::string {
     const std::string kind = film_named(word) ? "film" : word;
     if (std::find(words.begin(), words.end(), kind) != words.end()) return "";

@@ -12,6 +12,7 @@
 #include "host/base/files.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/simulate/commands.hpp"
@@ -196,9 +197,16 @@ void add_merge(console::Command study) {
   });
 }
 
+constexpr Advice kStudyAdvice[] = {
+    {simulation::study::StudyProblem::not_a_shard, ": give what 'astrolabe study --out' wrote"},
+    {simulation::study::StudyProblem::shard_of_other_version, ": run its shard of 'astrolabe study' again"},
+    {simulation::study::StudyProblem::shard_damaged, ": run its shard of 'astrolabe study' again"},
+};
+
 }  // namespace
 
 void add_study(console::Command app) {
+  advise(kStudyAdvice);
   const auto options = std::make_shared<StudyOptions>();
   const console::Command command = app.add_subcommand(
       "study", "Monte Carlo: how well each calibration method does, beside the Cramer-Rao bound");

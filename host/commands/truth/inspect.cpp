@@ -9,8 +9,8 @@
 
 #include "host/base/text/columns.hpp"
 #include "host/base/text/degrees.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/shared/unused_choices.hpp"
@@ -151,7 +151,7 @@ nlohmann::json number(const std::optional<double>& value) {
 
 nlohmann::json facts_of(const std::vector<Remark>& remarks) {
   nlohmann::json json = nlohmann::json::array();
-  for (const Remark& remark : remarks) json.push_back(remark.fact);
+  for (const Remark& remark : remarks) json.push_back(remark.sentence);
   return json;
 }
 

@@ -11,8 +11,8 @@
 #include "host/base/bytes.hpp"
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/film_options.hpp"
 #include "host/commands/truth/commands.hpp"
 #include "host/commands/truth/truth_film_view.hpp"
@@ -47,7 +47,7 @@ void require_different(const std::vector<fs::path>& outputs) {
   std::set<fs::path> seen;
   for (const fs::path& path : outputs)
     if (!path.empty() && !seen.insert(fs::absolute(path).lexically_normal()).second)
-      throw Error("'" + path.string() + "' would be written twice", {Help::name_other_file});
+      throw Error("'" + path.string() + "' would be written twice: name another file");
 }
 
 constexpr double kGap_s = 0.5, kNothing = std::numeric_limits<double>::quiet_NaN();

@@ -7,7 +7,7 @@
 
 #include "host/base/text/columns.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 
 namespace astro::commands {

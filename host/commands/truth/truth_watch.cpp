@@ -8,8 +8,8 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/truth/commands.hpp"
 #include "host/console/console.hpp"
@@ -48,9 +48,7 @@ class Watch {
   /// What is being watched, once something has come.
   std::string about() const { return fmt::format("'{}' {}", link_->body(), link_->way()); }
   /// `fact` with the reason why nothing comes, and what would help.
-  Remark silence(const std::string& fact) const {
-    return {fmt::format("{}: {}", fact, link_->why_silent()), link_->remedy()};
-  }
+  Remark silence(const std::string& fact) const { return {fmt::format("{}: {}", fact, link_->why_silent())}; }
 
  private:
   std::unique_ptr<truth::TrackerLink> link_;

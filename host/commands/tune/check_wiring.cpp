@@ -1,4 +1,6 @@
 #include "host/commands/tune/check_wiring.hpp"
+#include "host/motor/bench/identify.hpp"
+#include "host/motor/model/motor_model.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,8 +13,8 @@
 #include <tuple>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
-#include "host/commands/base/remedies.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/console/console.hpp"
@@ -222,6 +224,12 @@ void check_wiring(WiringOptions& options) {
   conclude(verdict, loaded);
 }
 
+constexpr Advice kCheckWiringAdvice[] = {
+    {motor::BenchProblem::counts_backward, "; 'astrolabe check-wiring' finds crossed or reversed wires"},
+    {motor::BenchProblem::stands, "; 'astrolabe check-wiring' finds crossed or reversed wires"},
+    {motor::MotorProblem::does_not_follow, "; 'astrolabe check-wiring' finds crossed or reversed wires"},
+};
+
 }  // namespace
 
 std::optional<Sighting> sighting_from(const std::string& word) {
@@ -257,6 +265,7 @@ motor::RollVerdict roll(robot::Client& client, const motor::RobotFacts& facts, c
 }
 
 void add_check_wiring(console::Command app) {
+  advise(kCheckWiringAdvice);
   const auto options = std::make_shared<WiringOptions>();
   const console::Command command = app.add_subcommand(
       "check-wiring", "turn each wheel a little and find wrong wires, polarities and encoder counts");
@@ -270,7 +279,7 @@ void add_check_wiring(console::Command app) {
       "afterwards: roll the robot ten wheel turns along a tape measure, for counts per revolution");
   add_answers(command, *options);
   command.add_flag("--upload", options->upload, "load corrected parameters without asking");
-  command.add_flag("--yes,-y", options->yes, "the wheels are off the ground: do not ask");
+  add_yes(command, options->yes, "the wheels are off the ground: do not ask");
   add_json_flag(command, options->json);
   console::examples(
       command, {"astrolabe check-wiring", "astrolabe check-wiring --roll",

@@ -6,12 +6,14 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/commands/tune/tune_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/motor/bench/identify.hpp"
 #include "host/report/page.hpp"
 
 namespace astro::commands {
@@ -45,8 +47,7 @@ void add_options(console::Command command, TuneOptions& options) {
              "M", 0.2, 50, "m")
       .excludes(stand);
   command.add_flag("--upload", options.upload, "load the new values without asking, and measure again");
-  command.add_flag("--yes,-y", options.yes,
-                   "do not ask before the wheels turn; loads nothing without --upload");
+  add_yes(command, options.yes, "do not ask before the wheels turn; loads nothing without --upload");
   add_json_flag(command, options.json);
   command.add_option("--out", options.out, "the report to write").type_name("FILE").capture_default_str();
 }
@@ -125,9 +126,16 @@ void run(TuneOptions& options) {
   conclude(options, result);
 }
 
+constexpr Advice kTuneAdvice[] = {
+    {motor::BenchProblem::out_of_room, "; give it more room with --max-distance"},
+    {motor::BenchProblem::stands_at_little_voltage,
+     "; 'astrolabe check-wiring' finds out which, or give it more with --max-voltage"},
+};
+
 }  // namespace
 
 void add_tune(console::Command app) {
+  advise(kTuneAdvice);
   const auto options = std::make_shared<TuneOptions>();
   const console::Command command =
       app.add_subcommand("tune", "measure the motors, compute feed-forward and gains, show and load them");

@@ -1,5 +1,5 @@
 #include "host/commands/tune/tune_job.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 

@@ -49,7 +49,7 @@ class File {
  private:
   void check(std::size_t offset, std::size_t size) const {
     if (offset > bytes_.size() || size > bytes_.size() - offset)
-      throw Error(fmt::format("'{}' ends before its symbols do", path_.string()), {Help::build_image_again});
+      throw Error(fmt::format("'{}' ends before its symbols do: build the image again", path_.string()));
   }
 
   std::filesystem::path path_;

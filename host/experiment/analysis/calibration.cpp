@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -220,7 +221,7 @@ double Calibration::scale_change() const { return 2 * scale() / (loaded.c_r + lo
 Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   if (method.family == Family::ml)
     throw Error("maximum likelihood needs whole drives with ground truth, and end poses are all there is",
-                {Help::use_end_poses});
+                AnalysisProblem::end_poses_only);
   const calibration::Options options = options_for(method);
   const calibration::Estimate estimate =
       calibration::estimate_factors(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);

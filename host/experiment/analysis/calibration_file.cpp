@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/calibration_file.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -116,10 +117,10 @@ std::map<std::string, double> numbers_in(toml::node_view<const toml::node> secti
 [[noreturn]] void fail_for_folder(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (const fs::path& file = entry.path(); file.extension() == ".toml")
-      throw Error(fmt::format("'{}' is a folder", folder.string()),
-                  {Help::name_calibration_in_folder, file.string()});
+      throw Error(fmt::format("'{}' is a folder: name a calibration in it, such as '{}'", folder.string(),
+                              file.string()));
   throw Error(fmt::format("'{}' is a folder that holds no calibration", folder.string()),
-              {Help::name_calibration});
+              AnalysisProblem::no_calibration);
 }
 
 NominalWheel wheel_of(const toml::table& file, const fs::path& path) {

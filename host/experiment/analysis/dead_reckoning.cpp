@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/dead_reckoning.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ double factor(const ParameterFile& file, const std::filesystem::path& path, cons
   const std::optional<double> value = number_named(file.parameters, name);
   if (!value)
     throw Error(fmt::format("{} has no {} under [parameters]", path.string(), name),
-                {Help::name_calibration});
+                AnalysisProblem::no_calibration);
   return *value;
 }
 
@@ -32,13 +33,13 @@ NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWhe
                            file.parameters, path.string()),
       file.robot};
   if (!(found.factors.b_m > 0.01 && found.factors.b_m < 10))
-    throw Error(fmt::format("{} has b = {:.4g} m, which no robot has", path.string(), found.factors.b_m),
-                {Help::correct_or_replace_file});
+    throw Error(fmt::format("{} has b = {:.4g} m, which no robot has: correct or replace it", path.string(),
+                            found.factors.b_m));
   for (const double ratio : {found.factors.c_r, found.factors.c_l})
     if (!(ratio > 0.5 && ratio < 2))
-      throw Error(fmt::format("{} has c_R = {:.4g} and c_L = {:.4g}, which no wheel has", path.string(),
-                              found.factors.c_r, found.factors.c_l),
-                  {Help::correct_or_replace_file});
+      throw Error(
+          fmt::format("{} has c_R = {:.4g} and c_L = {:.4g}, which no wheel has: correct or replace it",
+                      path.string(), found.factors.c_r, found.factors.c_l));
   return found;
 }
 

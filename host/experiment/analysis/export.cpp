@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/export.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -32,15 +33,15 @@ void require_possible(const std::string& name, double value) {
   const double least = in_unit(*row, row->minimum_raw), most = in_unit(*row, row->maximum_raw);
   if (value >= least && value <= most) return;
   const std::string unit = row->unit == "1" ? "" : " " + std::string(row->unit);
-  throw Error(fmt::format("{} = {:.9g}{} is out of range: {:g}{} to {:g}{}, so that a robot would refuse it",
-                          name, value, unit, least, unit, most, unit),
-              {Help::calibrate_again});
+  throw Error(fmt::format(
+      "{} = {:.9g}{} is out of range: {:g}{} to {:g}{}, so that a robot would refuse it; calibrate again",
+      name, value, unit, least, unit, most, unit));
 }
 
 double factor(const ParameterFile& file, const std::string& name) {
   const std::optional<double> value = number_named(file.parameters, name);
   if (!value || !std::isfinite(*value) || *value <= 0)
-    throw Error("the file has no " + name + " under [parameters]", {Help::name_calibration});
+    throw Error("the file has no " + name + " under [parameters]", AnalysisProblem::no_calibration);
   require_possible(name, *value);
   return *value;
 }
@@ -58,11 +59,7 @@ toml::table extended(const fs::path& path, const std::optional<DiffDrive>& param
   return file;
 }
 
-/// The remedy's value is the multiplier for arcs.
-std::string comment(const Remark& note) {
-  return wrapped(note.fact + ". For arcs wheel_separation_multiplier would be " + note.remedy.value + ".",
-                 kTextColumns, "# ");
-}
+std::string comment(const Remark& note) { return wrapped(note.sentence + ".", kTextColumns, "# "); }
 
 std::string value_text(const toml::node& node) {
   std::ostringstream text;
@@ -108,10 +105,10 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
       nominal.wheel_separation_m ? nominal.wheel_separation_m : number_named(file.loaded, "b");
   if (!separation_m)
     throw Error("the file does not tell the wheelbase that was loaded in the robot",
-                {Help::give_wheel_separation});
+                AnalysisProblem::no_wheel_separation);
   if (!file.wheel && !nominal.wheel_radius_m)
     throw Error("the file does not tell the nominal wheel that c_R and c_L refer to",
-                {Help::give_wheel_radius});
+                AnalysisProblem::no_wheel_radius);
   // The factors refer to the nominal wheel of the file or, if it names none, to that of the receiver.
   const double our_radius_m = file.wheel ? file.wheel->diameter_m / 2 : *nominal.wheel_radius_m;
   DiffDrive result;
@@ -127,14 +124,16 @@ std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDriv
   const double e = with_curvature_named({}, file.parameters, "the calibration").e;
   if (e == 0) return std::nullopt;
   const double b_m = factor(file, "b");
-  return Remark{fmt::format("diff_drive_controller knows one wheelbase, and this robot has two: spins turn "
-                            "about {:.6g} m, which "
-                            "is written, gentle arcs about {:.6g} m (e = {:.4g}), so that its odometry turns "
-                            "them up to {:.1f} % "
-                            "too {}",
-                            b_m, b_m * (1 + e), e, 100 * std::abs(e), e > 0 ? "far" : "little"),
-                {Help::set_separation_of_arcs,
-                 fmt::format("{:.6g}", parameters.wheel_separation_multiplier * (1 + e))}};
+  return Remark{
+      fmt::format("diff_drive_controller knows one wheelbase, and this robot has two: spins turn "
+                  "about {:.6g} m, which "
+                  "is written, gentle arcs about {:.6g} m (e = {:.4g}), so that its odometry turns "
+                  "them up to {:.1f} % "
+                  "too {}; drive with the odometry of Astrolabe's firmware, which has both, or set "
+                  "wheel_separation_multiplier to "
+                  "{:.6g} if the robot mostly drives arcs",
+                  b_m, b_m * (1 + e), e, 100 * std::abs(e), e > 0 ? "far" : "little",
+                  parameters.wheel_separation_multiplier * (1 + e))};
 }
 
 bool is_ros2_node(std::string_view name) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 
 /// Exports a calibration for other programs.

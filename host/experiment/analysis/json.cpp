@@ -54,7 +54,7 @@ nlohmann::json slip_events_json(const std::vector<calibration::SlipEvent>& slip_
 nlohmann::json remark_facts(const MlResult& ml) {
   nlohmann::json json = nlohmann::json::array();
   for (const Remark& remark : calibration::remarks(ml.estimate, ml.options.noise.has_value()))
-    json.push_back(remark.fact);
+    json.push_back(remark.sentence);
   return json;
 }
 
@@ -172,7 +172,7 @@ nlohmann::json judgement_json(const calibration::CrossValidation& judgement) {
                       {"new", held_out_json(run.found)},
                       {"gain", number(run.gain)}});
   nlohmann::json not_judged = nlohmann::json::array();
-  for (const Remark& remark : judgement.not_judged) not_judged.push_back(remark.fact);
+  for (const Remark& remark : judgement.not_judged) not_judged.push_back(remark.sentence);
   return {{"verdict", name_of(judgement.verdict)},
           {"use", !advises_against(judgement.verdict)},
           {"sentence", judgement_sentence(judgement)},

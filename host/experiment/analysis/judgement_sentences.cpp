@@ -52,13 +52,13 @@ std::string judgement_sentence(const CrossValidation& judgement) {
     return judgement.not_judged.empty()
                ? "Whether it is better than what the robot carries cannot be judged from a single drive."
                : fmt::format("Whether it is better than what the robot carries cannot be judged: {}.",
-                             judgement.not_judged.front().fact);
+                             judgement.not_judged.front().sentence);
   const std::string seen =
       fmt::format("on drives that it had not seen {} (root mean squares), and {} of {} drives fit better",
                   comparison(judgement), judgement.better_on(), drives);
-  const std::string rest = judgement.not_judged.empty()
-                               ? ""
-                               : fmt::format(" Not all is judged: {}.", judgement.not_judged.front().fact);
+  const std::string rest = judgement.not_judged.empty() ? ""
+                                                        : fmt::format(" Not all is judged: {}.",
+                                                                      judgement.not_judged.front().sentence);
   if (judgement.verdict == Verdict::better)
     return fmt::format("Better than what the robot carries: {}.{}{}", seen, doubt_about(judgement), rest);
   if (judgement.verdict == Verdict::worse)

@@ -169,7 +169,7 @@ std::string noise_sentence(const MlResult& ml) {
 
 std::vector<Remark> verdict(const MlResult& ml) {
   std::vector<Remark> remarks = calibration::remarks(ml.estimate, ml.options.noise.has_value());
-  for (Remark& remark : remarks) remark.fact = capitalised(std::move(remark.fact), ml.estimate.runs);
+  for (Remark& remark : remarks) remark.sentence = capitalised(std::move(remark.sentence), ml.estimate.runs);
   if (remarks.empty()) remarks.push_back({"The runs agree with each other"});
   return remarks;
 }

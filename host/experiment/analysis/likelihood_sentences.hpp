@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 
 /// What maximum likelihood found beside the factors, in sentences that the terminal and the report share.

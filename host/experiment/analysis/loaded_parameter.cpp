@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/loaded_parameter.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ double loaded_parameter(const recording::RunInfo& info, const char* parameter, c
   const std::string fact = fmt::format("the recording '{}' does not say which {} was loaded in the robot",
                                        file.empty() ? run_name(info) : file, parameter);
   if (file.empty()) throw Error(fact);
-  throw Error(fact, {Help::leave_run_out, file});
+  throw Error(fact, AnalysisProblem::run_unusable, {file});
 }
 
 }  // namespace astro::experiment

@@ -56,7 +56,7 @@ std::string ml_text(const Calibration& calibration) {
       "the nominal wheel, whatever was loaded in the robot while it drove.\n\n" +
       lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + wheelbase_sentence(calibration) + ' ' +
       scale_sentence(calibration) + ' ' + noise_sentence(ml) + "\n\n";
-  for (const Remark& remark : verdict(ml)) text += remark.fact + ". ";
+  for (const Remark& remark : verdict(ml)) text += remark.sentence + ". ";
   return text;
 }
 

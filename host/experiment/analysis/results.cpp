@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/results.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -110,7 +111,7 @@ Results read_results(const fs::path& folder, recording::Damage damage) {
   }
   if (results.phases.empty())
     throw Error("the experiment in '" + folder.string() + "' has not driven its first phase to the end",
-                {Help::resume_experiment, folder.string()});
+                AnalysisProblem::no_phase_complete, {folder.string()});
   return results;
 }
 

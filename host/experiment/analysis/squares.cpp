@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/squares.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -48,12 +49,13 @@ void accept(Squares& squares, AllDriven& driven, const recording::Run& run, bool
     squares.side_m = run.info.size_m;
   }
   if (!same_factors(loaded, squares.loaded))
-    throw Error("the squares were driven with different c_R, c_L or b, or another e",
-                {Help::calibrate_each_phase});
+    throw Error(
+        "the squares were driven with different c_R, c_L or b, or another e: calibrate each phase for itself "
+        "(name its folder)");
   if (!same_number(run.info.size_m, squares.side_m))
     throw Error(
-        fmt::format("the squares have different sides ({} m and {} m)", squares.side_m, run.info.size_m),
-        {Help::separate_sizes});
+        fmt::format("the squares have different sides ({} m and {} m): keep each size in a folder of its own",
+                    squares.side_m, run.info.size_m));
   Driven& direction = driven.of(*run.info.direction);
   direction.ends.push_back(end_in(run));
   direction.names.push_back(recording::run_name(run.info));
@@ -98,9 +100,8 @@ calibration::WheelFactors loaded_in_all(const RunSet& set) {
   const calibration::WheelFactors first = loaded_factors(set.runs.front().info);
   for (std::size_t i = 1; i < set.runs.size(); ++i)
     if (!same_factors(loaded_factors(set.runs[i].info), first))
-      throw Error(
-          fmt::format("the robot had other factors loaded in {} than in {}", set.names[i], set.names.front()),
-          {Help::check_each_phase});
+      throw Error(fmt::format("the robot had other factors loaded in {} than in {}: check them separately",
+                              set.names[i], set.names.front()));
   return first;
 }
 
@@ -113,7 +114,7 @@ Squares squares_of(std::span<const recording::Run> runs) {
     if (const auto line = line_of(run)) squares.lines.push_back(*line);
   }
   if (driven.cw.ends.empty() && driven.ccw.ends.empty())
-    throw Error("none of the recordings is a square", {Help::drive_squares});
+    throw Error("none of the recordings is a square", AnalysisProblem::no_squares);
   const auto odd = calibration::odd_runs(driven.cw.ends, driven.ccw.ends, {squares.side_m, squares.loaded});
   take(squares, driven.cw, Sense::cw, odd);
   take(squares, driven.ccw, Sense::ccw, odd);

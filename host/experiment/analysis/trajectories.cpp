@@ -1,4 +1,5 @@
 #include "host/experiment/analysis/trajectories.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +41,7 @@ class Clock {
   bool advances(std::int64_t time_us) {
     if (any_ && time_us < last_us_)
       throw Error(fmt::format("the times of the {} in '{}' run backwards, as after a restart", stream_, run_),
-                  {Help::leave_run_out, run_});
+                  AnalysisProblem::run_unusable, {run_});
     const bool later = !any_ || time_us > last_us_;
     any_ = true;
     last_us_ = time_us;
@@ -86,9 +87,10 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
     throw Error(
         fmt::format("nothing followed the robot while '{}' was recorded, and maximum likelihood needs that",
                     name),
-        {Help::leave_run_out_or_use_end_poses, name});
+        AnalysisProblem::run_without_truth, {name});
   if (run.odometry.empty())
-    throw Error(fmt::format("the recording '{}' holds no odometry", name), {Help::leave_run_out, name});
+    throw Error(fmt::format("the recording '{}' holds no odometry", name), AnalysisProblem::run_unusable,
+                {name});
   calibration::Trajectory trajectory;
   trajectory.name = name;
   const NominalWheel wheel = nominal_wheel(run.info, name);
@@ -125,14 +127,13 @@ void extend_trajectories(std::vector<calibration::Trajectory>& trajectories, con
 void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,
                         const std::string& b_name) {
   if (a.robot_id != b.robot_id)
-    throw Error(fmt::format("'{}' and '{}' were driven by different robots", a_name, b_name),
-                {Help::calibrate_each_robot});
+    throw Error(fmt::format("'{}' and '{}' were driven by different robots: calibrate each for itself",
+                            a_name, b_name));
   if (nominal_wheel(a, a_name) != nominal_wheel(b, b_name))
     throw Error(
         fmt::format("'{}' and '{}' were driven with different wheel diameters, gears or encoders in the "
-                    "parameters, to which c_R and c_L refer",
-                    a_name, b_name),
-        {Help::calibrate_each_robot});
+                    "parameters, to which c_R and c_L refer: calibrate each for itself",
+                    a_name, b_name));
 }
 
 }  // namespace astro::experiment

@@ -66,9 +66,8 @@ ParameterValues understood_by(std::span<const robot::ParameterRow> robot, Parame
   if (const double e = number_named(values, "e").value_or(0); e != 0)
     throw Error(
         fmt::format("the calibration has e = {:.6g}, and this robot's firmware has no e: it would turn "
-                    "gentle arcs about the wheelbase of spins",
-                    e),
-        {Help::update_firmware});
+                    "gentle arcs about the wheelbase of spins: update the robot's firmware",
+                    e));
   values.erase("e");
   values.erase("kappa0");
   return values;
@@ -116,15 +115,15 @@ std::string wrong_wheel(const robot::RemoteParameters& robot, const ParameterFil
 std::vector<Remark> objections(const robot::RemoteParameters& robot, const RobotIdentity& identity,
                                const ParameterFile& file, const std::vector<Change>& changes) {
   std::vector<Remark> all;
-  const auto add = [&](const std::string& why, Help help) {
-    if (!why.empty()) all.push_back({why, {help}});
+  const auto add = [&](const std::string& why, UploadProblem problem) {
+    if (!why.empty()) all.push_back({why, problem});
   };
-  add(different_robots("the calibration", file.robot, "this", identity), Help::calibrate_robot_or_override);
-  add(incomplete(file), Help::calibrate_again_or_override);
-  add(foreign_e(robot, file), Help::calibrate_again_or_override);
-  add(wrong_wheel(robot, file), Help::load_old_values_or_override);
-  add(wrong_loaded_factors(robot, file), Help::load_old_values_or_override);
-  add(suspicion(changes), Help::check_units_or_override);
+  add(different_robots("the calibration", file.robot, "this", identity), UploadProblem::of_other_robot);
+  add(incomplete(file), UploadProblem::incomplete);
+  add(foreign_e(robot, file), UploadProblem::foreign_e);
+  add(wrong_wheel(robot, file), UploadProblem::of_other_wheel);
+  add(wrong_loaded_factors(robot, file), UploadProblem::of_other_factors);
+  add(suspicion(changes), UploadProblem::suspicious);
   return all;
 }
 

@@ -5,11 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/robot/parameters/far_change.hpp"
 
 namespace astro::experiment {
+
+/// Why a calibration should not be uploaded.
+enum class UploadProblem {
+  of_other_robot,
+  incomplete,
+  foreign_e,
+  of_other_wheel,
+  of_other_factors,
+  suspicious
+};
 
 using robot::Change;
 

@@ -1,4 +1,5 @@
 #include "host/experiment/drive/entered_truth.hpp"
+#include "host/experiment/drive/open_journal.hpp"
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
@@ -26,7 +27,7 @@ bool EnteredTruth::ask(recording::Run& run, const char* what_is_left) {
   } catch (const Interrupted&) {
     throw;
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) + what_is_left, {Help::resume_for_truth});
+    throw Error(std::string(error.what()) + what_is_left, ExperimentProblem::truth_missing);
   }
 }
 

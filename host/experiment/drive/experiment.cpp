@@ -111,7 +111,7 @@ class Session {
         throw Error(
             "a precision can only be driven for by maximum likelihood, and these runs have no ground truth "
             "along the way",
-            {Help::count_runs});
+            ExperimentProblem::precision_unknown);
       const calibration::Precision reached = precision_of(found);
       hooks_.run.notice({fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,
                                      described(reached))});
@@ -158,8 +158,8 @@ class Session {
                  const robot::RemoteParameters& parameters) {
     recording::Run run;
     if (const fs::path driven = file_without_truth(folder_, spec); fs::exists(driven)) {
-      hooks_.run.notice({spec.title() + " is driven, but its ground truth is missing",
-                         {Help::drive_run_again, driven.string()}});
+      hooks_.run.notice(
+          {spec.title() + " is driven, but its ground truth is missing" + to_drive_again(driven)});
       run = recording::read_run(driven);
     } else {
       // Whoever had the last run driven again has taken its recording away.
@@ -185,7 +185,7 @@ class Session {
       if (!same_factors(known->second, factors))
         throw Error(fmt::format("the robot holds {}, but phase '{}' of this experiment began with {}",
                                 in_words(factors), phase, in_words(known->second)),
-                    {Help::load_factors_or_choose_other_out_folder});
+                    ExperimentProblem::other_factors_loaded);
       return;
     }
     journal_.loaded[phase] = factors;
@@ -201,7 +201,8 @@ class Session {
     info.parameters = parameters.numbers();
     const robot::Path path = path_of(journal_.plan, spec);
     const Remark broken_off{spec.title() + " was broken off, and the robot stands on its way",
-                            {Help::put_back_and_resume, folder_.string()}};
+                            ExperimentProblem::broken_off,
+                            {folder_.string()}};
     bool on_its_way = false;  // the robot has left its start mark
     RunHooks hooks = hooks_.run;
     hooks.moved = [&](const recording::OdometrySample& sample) {
@@ -218,7 +219,7 @@ class Session {
         throw;
       } catch (const robot::LinkLost& lost) {
         if (hooks_.run.interrupted()) throw;
-        hooks_.run.notice({lost.what(), lost.remedy()});
+        hooks_.run.notice(lost.remark());
         if (!hooks_.put_back(spec)) throw Error(broken_off);
         client_.reconnect(kReconnectPatience);
       } catch (const Error&) {
@@ -272,14 +273,16 @@ class Session {
     if (list.empty()) return true;  // an earlier session uploaded them already
     hooks_.calibrated(found, list);
     const Remark kept{"the robot keeps what it carries; the calibration is in '" + file.string() + "'",
-                      {Help::look_at_runs, runs.string()}};
+                      ExperimentProblem::parameters_kept,
+                      {runs.string()}};
     for (const Remark& why : objections(robot, identity_of(client_.robot()), calibration, list)) {
-      hooks_.run.notice(hooks_.force ? Remark{"overridden: " + why.fact} : kept);
+      hooks_.run.notice(hooks_.force ? Remark{"overridden: " + why.sentence} : kept);
       if (!hooks_.force) throw Error(why);
     }
     const Decision decision = hooks_.decide(found, list);
     if (decision == Decision::later)
-      throw Error("the new parameters were not uploaded", {Help::resume_experiment, folder_.string()});
+      throw Error("the new parameters were not uploaded", ExperimentProblem::not_uploaded,
+                  {folder_.string()});
     if (decision == Decision::keep) {
       hooks_.run.notice(kept);
       return false;

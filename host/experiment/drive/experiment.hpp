@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/experiment/analysis/results.hpp"
 #include "host/experiment/drive/change_guard.hpp"
 #include "host/experiment/drive/doubtful_run.hpp"

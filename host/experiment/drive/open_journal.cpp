@@ -23,12 +23,12 @@ namespace fs = std::filesystem;
 
 /// `fact`: what is wrong with a recording.
 Error cannot_go_on(const Journal& journal, std::size_t phase, const fs::path& file, const std::string& fact) {
-  if (!is_over(journal, phase)) return Error(fact, {Help::drive_run_again, file.string()});
+  if (!is_over(journal, phase)) return Error(fact + to_drive_again(file));
   return Error(
       fact +
           "; unless a whole copy takes its place, the experiment cannot go on, because the robot got "
           "other factors since that run",
-      {Help::choose_other_out_folder});
+      ExperimentProblem::cannot_go_on);
 }
 
 /// "" if the recording is of this run.
@@ -90,14 +90,18 @@ void require_same(const fs::path& folder, const Journal& journal, const Plan& pl
   same.circle_turns = journal.plan.circle_turns;
   if (nlohmann::json(journal.plan) != nlohmann::json(same))
     throw Error("'" + folder.string() + "' holds an experiment with other settings",
-                {Help::give_same_settings_or_choose_other_out_folder});
+                ExperimentProblem::other_settings);
   if (const std::string other = different_robots("the experiment in '" + folder.string() + "'",
                                                  {journal.robot_name, journal.robot_id}, "this", identity);
       !other.empty())
-    throw Error(other, {Help::choose_other_out_folder});
+    throw Error(other, ExperimentProblem::other_robot);
 }
 
 }  // namespace
+
+std::string to_drive_again(const fs::path& recording) {
+  return " (to drive it again, remove '" + recording.string() + "')";
+}
 
 bool is_over(const Journal& journal, std::size_t phase) {
   const std::vector<std::string> names = phase_names(journal.plan);
@@ -107,15 +111,15 @@ bool is_over(const Journal& journal, std::size_t phase) {
 void require_usable(const fs::path& folder, const Journal& journal, const RunSpec& spec,
                     const recording::Run& run) {
   const fs::path file = file_of(folder, spec);
-  const Remedy again{Help::drive_run_again, file.string()};
-  if (!run.warning.empty()) throw Error(run.warning, again);
+  const std::string again = to_drive_again(file);
+  if (!run.warning.empty()) throw Error(run.warning + again);
   if (const std::string why = why_other_run(journal, spec, run.info); !why.empty())
-    throw Error(file.string() + " " + why, again);
+    throw Error(file.string() + " " + why + again);
   if (spec.kind != "square" || (journal.plan.truth == "film" && run.truth.empty())) return;
   try {
     recording::ends_of(run);
   } catch (const Error& error) {
-    throw Error(fmt::format("{} cannot be used: {}", file.string(), error.what()), again);
+    throw Error(fmt::format("{} cannot be used: {}", file.string(), error.what()) + again);
   }
 }
 

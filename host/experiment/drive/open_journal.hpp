@@ -8,6 +8,22 @@
 
 namespace astro::experiment {
 
+/// What ends an experiment, or keeps it from going on. Values: its folder, or that of the runs of parameters_kept.
+enum class ExperimentProblem {
+  other_settings,
+  other_robot,
+  cannot_go_on,
+  other_factors_loaded,
+  precision_unknown,
+  truth_missing,
+  broken_off,
+  parameters_kept,
+  not_uploaded
+};
+
+/// The end of a sentence about a recording that cannot be used.
+std::string to_drive_again(const std::filesystem::path& recording);
+
 /// The journal in `folder`, of an experiment that began there earlier; if there is none, one that begins now with this
 /// plan and this robot, and is written.
 ///

@@ -76,7 +76,7 @@ class Collector {
       return interrupted() || (stand_from_us_ && newest_us_ - *stand_from_us_ >= duration.count());
     };
     if (!client_.pump_until(done, 10 * duration))
-      throw Error("the robot sent no more telemetry while it stood still", {Help::check_link});
+      throw Error("the robot sent no more telemetry while it stood still: is the link good?");
   }
 
   /// Stops the stream. Waits for the last truth samples, which may arrive a little later than the odometry.
@@ -204,7 +204,7 @@ Recorded record_until(robot::Client& client, truth::Source& truth, const SampleS
     collector.finish();
   } catch (const Error& error) {
     if (!failure && collector.count().odometry == 0) throw;
-    warning = Remark{error.what(), error.remedy()};
+    warning = error.remark();
   }
   if (failure) std::rethrow_exception(failure);
   Recorded recorded = collector.count();

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/experiment/files/plan.hpp"
 #include "host/recording/run.hpp"
 #include "host/robot/motion/drive.hpp"

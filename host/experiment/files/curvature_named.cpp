@@ -15,11 +15,11 @@ calibration::WheelFactors with_curvature(calibration::WheelFactors factors, std:
   factors.e = e.value_or(0);
   factors.kappa0 = kappa0.value_or(calibration::kUsualKappa0);
   if (!(std::abs(factors.e) < kMostE))
-    throw Error(fmt::format("{} has e = {:.4g}, which no robot has", where, factors.e),
-                {Help::correct_or_replace_file});
+    throw Error(
+        fmt::format("{} has e = {:.4g}, which no robot has: correct or replace it", where, factors.e));
   if (!(factors.kappa0 >= kLeastKappa0 && factors.kappa0 <= kMostKappa0))
-    throw Error(fmt::format("{} has kappa0 = {:.4g}, which no robot has", where, factors.kappa0),
-                {Help::correct_or_replace_file});
+    throw Error(fmt::format("{} has kappa0 = {:.4g}, which no robot has: correct or replace it", where,
+                            factors.kappa0));
   return factors;
 }
 
@@ -27,8 +27,8 @@ void require_no_text(const NamedValues& values, const std::string& name, const s
   const auto found = values.find(name);
   if (found == values.end()) return;
   if (const auto* text = std::get_if<std::string>(&found->second))
-    throw Error(fmt::format("{} has {} = '{}', which is text and no number", where, name, *text),
-                {Help::correct_or_replace_file});
+    throw Error(fmt::format("{} has {} = '{}', which is text and no number: correct or replace it", where,
+                            name, *text));
 }
 
 }  // namespace astro::experiment

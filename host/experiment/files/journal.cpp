@@ -18,16 +18,16 @@ std::filesystem::path file_in(const std::filesystem::path& folder) { return fold
 
 [[noreturn]] void fail_no_experiment(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / "wall.json"))
-    throw Error(fmt::format("'{}' holds a calibration against a wall, which has no runs to report on",
-                            folder.string()),
-                std::filesystem::exists(folder / "calib.toml")
-                    ? Remedy{Help::read_calibration_of_wall, (folder / "calib.toml").string()}
-                    : Remedy{});
+    throw Error(fmt::format(
+        "'{}' holds a calibration against a wall, which has no runs to report on{}", folder.string(),
+        std::filesystem::exists(folder / "calib.toml")
+            ? fmt::format(": what came out of it is in '{}'", (folder / "calib.toml").string())
+            : ""));
   const std::string why = !std::filesystem::exists(folder) ? "does not exist"
                           : !std::filesystem::is_directory(folder)
                               ? "is a file"
                               : "holds no experiment (no experiment.json)";
-  throw Error(fmt::format("'{}' {}", folder.string(), why), {Help::name_experiment});
+  throw Error(fmt::format("'{}' {}", folder.string(), why), JournalProblem::no_experiment);
 }
 
 /// Refuses a plan that this program cannot have written, because its counts decide how much memory is used.
@@ -37,7 +37,7 @@ Plan drivable_plan(const nlohmann::json& json, const std::string& damaged) {
     plan.check();
     return plan;
   } catch (const Error& error) {
-    throw Error(damaged + " (" + error.what() + ")", {Help::calibrate_recordings});
+    throw Error(damaged + " (" + error.what() + ")", JournalProblem::damaged);
   }
 }
 
@@ -50,12 +50,12 @@ Journal read_journal(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(path)) fail_no_experiment(folder);
   const Bytes bytes = load_file(path, kMaxSettingsBytes);
   const std::string damaged = "'" + path.string() + "' is damaged";
-  if (!json_fits_memory(as_text(bytes))) throw Error(damaged, {Help::calibrate_recordings});
+  if (!json_fits_memory(as_text(bytes))) throw Error(damaged, JournalProblem::damaged);
   try {
     const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
     if (json.at("format") != kFormat)
-      throw Error("'" + path.string() + "' was written by another version of Astrolabe",
-                  {Help::use_same_version});
+      throw Error("'" + path.string() +
+                  "' was written by another version of Astrolabe: use that one to go on with it");
     Journal journal;
     journal.plan = drivable_plan(json.at("plan"), damaged);
     const auto& robot = json.at("robot");
@@ -69,7 +69,7 @@ Journal read_journal(const std::filesystem::path& folder) {
     journal.confirmed = json.value("confirmed", journal.confirmed);  // older versions have none
     return journal;
   } catch (const nlohmann::json::exception&) {
-    throw Error(damaged, {Help::calibrate_recordings});
+    throw Error(damaged, JournalProblem::damaged);
   }
 }
 

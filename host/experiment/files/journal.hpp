@@ -10,6 +10,8 @@
 
 namespace astro::experiment {
 
+enum class JournalProblem { no_experiment, damaged };
+
 /// experiment.json: what a folder's experiment is and how far it went, so that it can be resumed. The runs
 /// themselves are the files beside it.
 struct Journal {

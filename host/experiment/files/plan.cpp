@@ -16,8 +16,8 @@ constexpr int kLinesByHand = 3;
 
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
-void need(bool condition, const std::string& sentence, const Remedy& remedy = {}) {
-  if (!condition) throw Error(sentence, remedy);
+void need(bool condition, const std::string& sentence, Kind kind = {}, std::vector<std::string> values = {}) {
+  if (!condition) throw Error(sentence, kind, std::move(values));
 }
 
 int count_at(const nlohmann::json& json, const char* key) { return count_in(json.at(key).dump(), key); }
@@ -30,13 +30,13 @@ void check_until(const Plan& plan) {
        fmt::format("at most {} squares in each direction cannot be driven: {} to 1000 are possible",
                    plan.until->most, kFewestPairs));
   need(plan.order == Order::alternating, "squares driven until a precision is reached alternate",
-       {Help::keep_order});
+       PlanProblem::order_of_open_ended);
   need(plan.method.family != MethodChoice::Family::end_poses,
-       "only maximum likelihood knows its precision as it goes",
-       {Help::drop_precision_or_method, std::string(name_of(plan.method))});
+       "only maximum likelihood knows its precision as it goes", PlanProblem::method_without_precision,
+       {std::string(name_of(plan.method))});
   need(plan.truth != "manual" && plan.truth != "file" && plan.truth != "film",
        "a precision can only be driven for with ground truth along the whole drive",
-       {Help::count_runs_or_change_truth, plan.truth});
+       PlanProblem::truth_without_precision, {plan.truth});
 }
 
 }  // namespace

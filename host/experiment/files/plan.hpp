@@ -13,6 +13,9 @@
 /// What an experiment drives, in which order, and the name of each run.
 namespace astro::experiment {
 
+/// What cannot be driven for a precision. Values: the method or the source of truth.
+enum class PlanProblem { order_of_open_ended, method_without_precision, truth_without_precision };
+
 /// How the factors are found. automatic: maximum likelihood if all runs were recorded with ground truth along the
 /// way; otherwise the robust fit of end poses.
 struct MethodChoice {

@@ -35,8 +35,7 @@ std::string matched(const std::string& wanted, const std::vector<std::string>& n
     throw Error(fmt::format("there is no recording '{}' in {} to leave out: it holds {}", wanted,
                             folder.string(), listed(names)));
   if (matches.size() > 1)
-    throw Error(fmt::format("'{}' may be {}", wanted, fmt::join(matches, " or ")),
-                {Help::name_run_to_leave_out});
+    throw Error(fmt::format("'{}' may be {}: name the one to leave out", wanted, fmt::join(matches, " or ")));
   return matches.front();
 }
 
@@ -53,7 +52,7 @@ void require_no_copies(const RunSet& set) {
     for (std::size_t k = 0; k < i; ++k)
       if (is_copy(set.runs[i], set.runs[k]))
         throw Error(fmt::format("{} and {} are the same recording", set.names[k], set.names[i]),
-                    {Help::leave_copy_out, set.names[i]});
+                    RunSetProblem::same_recording, {set.names[i]});
 }
 
 }  // namespace
@@ -70,7 +69,7 @@ RunSet read_run_set(const fs::path& folder, std::span<const std::string> without
     set.runs.push_back(recording::read_run(files[i], damage));
   }
   if (set.runs.empty())
-    throw Error("every recording in " + folder.string() + " is left out", {Help::keep_some_runs});
+    throw Error("every recording in " + folder.string() + " is left out: keep some to calibrate from");
   require_no_copies(set);
   return set;
 }

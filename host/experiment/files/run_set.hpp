@@ -10,6 +10,9 @@
 
 namespace astro::experiment {
 
+/// Values: the run to leave out.
+enum class RunSetProblem { same_recording };
+
 /// Recordings that are calibrated together: names[i] is the name of runs[i], and sessions[i] that of its session
 /// (calibration::Trajectory::session). No sessions: they are found from the data.
 struct RunSet {

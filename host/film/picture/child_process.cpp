@@ -58,8 +58,9 @@ ChildProcess::ChildProcess(std::vector<std::string> words, Line line, std::chron
   }
   pid_ = -1;
   const std::string reader = "the program '" + name_ + "', which reads films, ";
-  if (failure == ENOENT) throw Error(reader + "is not installed", {Help::install_film_reader});
-  throw system_error(reader + "cannot be started", failure, {Help::install_film_reader});
+  constexpr const char* kInstall = ": install ffmpeg ('apt install ffmpeg'), which has it";
+  if (failure == ENOENT) throw Error(reader + "is not installed" + kInstall);
+  throw system_error(reader + "cannot be started", failure, kInstall);
 }
 
 ChildProcess::~ChildProcess() {
@@ -108,8 +109,7 @@ void ChildProcess::take_words() {
 
 void ChildProcess::fail_silent() const {
   throw Error("the program '" + name_ + "', which reads films, has neither said anything nor ended for " +
-                  std::to_string(patience_.count()) + " ms",
-              {Help::name_film});
+              std::to_string(patience_.count()) + " ms: name the film that the phone recorded (MP4 or MOV)");
 }
 
 void ChildProcess::wait_for_streams() {

@@ -1,4 +1,5 @@
 #include "host/film/picture/film_info.hpp"
+#include "host/film/picture/how_to_film.hpp"
 
 #include <fmt/format.h>
 
@@ -66,9 +67,10 @@ bool begins_as_film(const std::filesystem::path& film) {
 [[noreturn]] void refuse(const std::filesystem::path& film, const std::string& why) {
   if (why.find("moov atom not found") != std::string::npos && begins_as_film(film))
     throw Error("'" + film.string() +
-                    "' is a truncated film: its table of pictures, which a camera writes last, is missing",
-                {Help::take_original_film});
-  throw Error("'" + film.string() + "' is not a film that ffprobe can read", {Help::name_film});
+                "' is a truncated film: its table of pictures, which a camera writes last, is missing" +
+                how_to::kTakeOriginal);
+  throw Error("'" + film.string() +
+              "' is not a film that ffprobe can read: name the film that the phone recorded (MP4 or MOV)");
 }
 
 }  // namespace
@@ -114,9 +116,8 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
   if (info.width < kLeast || info.height < kLeast || info.width > kMost || info.height > kMost)
     throw Error(
         fmt::format("'{}' has pictures of {} x {} pixels, and those with {} to {} pixels on each side can "
-                    "be followed",
-                    film.string(), info.width, info.height, kLeast, kMost),
-        {Help::name_film});
+                    "be followed: name the film that the phone recorded (MP4 or MOV)",
+                    film.string(), info.width, info.height, kLeast, kMost));
   return info;
 }
 

@@ -66,7 +66,9 @@ bool FrameStream::next(GrayFrame& frame) {
   frame.pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   if (decoder_.read(frame.pixels) < frame.pixels.size()) return false;
   if (stamps_.empty())
-    throw Error("ffmpeg does not report the times of the film's pictures", {Help::name_film});
+    throw Error(
+        "ffmpeg does not report the times of the film's pictures: name the film that the phone recorded (MP4 "
+        "or MOV)");
   frame.pts_s = stamps_.front().pts_s;
   frame.key = stamps_.front().key;
   stamps_.pop_front();

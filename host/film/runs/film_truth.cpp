@@ -1,4 +1,5 @@
 #include "host/film/runs/film_truth.hpp"
+#include "host/film/picture/how_to_film.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +32,7 @@ struct RunWindow {
 /// What of a run a film does not show.
 struct Lack {
   std::string what;  // "the film ends 3.0 s before it"
-  Help help = Help::film_whole_field;
+  const char* advice = how_to::kWholeField;
   bool left_picture = false;  // the robot drove out of the picture
 };
 
@@ -45,9 +46,9 @@ std::optional<Lack> lack_of(const RunWindow& run, const film::FilmTrack& track) 
   constexpr double kLong_s = 1;
   const film::FilmSightings& seen = track.sightings;
   if (const double late_s = seen.first_s - run.from_s; late_s > kLong_s)
-    return Lack{fmt::format("the film begins {:.1f} s after it", late_s), Help::film_to_the_end};
+    return Lack{fmt::format("the film begins {:.1f} s after it", late_s), how_to::kToTheEnd};
   if (const double early_s = run.to_s - seen.last_s; early_s > kLong_s)
-    return Lack{fmt::format("the film ends {:.1f} s before it", early_s), Help::film_to_the_end};
+    return Lack{fmt::format("the film ends {:.1f} s before it", early_s), how_to::kToTheEnd};
   const auto inside_s = [&](const film::HiddenSpan& span) {
     return std::min(span.to_s, run.to_s) - std::max(span.from_s, run.from_s);
   };
@@ -60,7 +61,7 @@ std::optional<Lack> lack_of(const RunWindow& run, const film::FilmTrack& track) 
   if (worst == nullptr) return std::nullopt;
   return Lack{fmt::format("the robot's tag is {} from {:.1f} to {:.1f} s of the film",
                           worst->left_picture ? "out of the picture" : "hidden", worst->from_s, worst->to_s),
-              Help::film_whole_field, worst->left_picture};
+              how_to::kWholeField, worst->left_picture};
 }
 
 std::vector<std::size_t> order_of(const experiment::RunSet& set) {
@@ -124,11 +125,11 @@ void leave_out_unseen(experiment::RunSet& set, std::vector<Shown>& shown, const 
                       : std::nullopt;
     if (is_shown(one) && !(lack && lack->left_picture)) {
       kept.push_back(i);
-      if (lack) report.remarks.push_back({fmt::format("'{}': {}", set.names[i], lack->what), {lack->help}});
+      if (lack) report.remarks.push_back({fmt::format("'{}': {}", set.names[i], lack->what) + lack->advice});
     } else if (lack) {
       report.remarks.push_back(
-          {fmt::format("'{}' was left out: {}", set.names[i], lack->what), {lack->help}});
-      if (!reason) reason = Remark{fmt::format("'{}': {}", set.names[i], lack->what), {lack->help}};
+          {fmt::format("'{}' was left out: {}", set.names[i], lack->what) + lack->advice});
+      if (!reason) reason = Remark{fmt::format("'{}': {}", set.names[i], lack->what) + lack->advice};
     } else {
       report.remarks.push_back({fmt::format("'{}' is not in the film, and was left out", set.names[i])});
     }
@@ -136,10 +137,9 @@ void leave_out_unseen(experiment::RunSet& set, std::vector<Shown>& shown, const 
   if (kept.empty() && reason) throw Error(*reason);
   if (kept.empty())
     throw Error(
-        fmt::format(
-            "none of the {} runs is in the film: the robot there never turns and drives as its wheels did",
-            set.runs.size()),
-        {Help::name_film_of_runs});
+        fmt::format("none of the {} runs is in the film: the robot there never turns and drives as its "
+                    "wheels did: name the film that shows these runs",
+                    set.runs.size()));
   keep_at(set.names, kept);
   keep_at(set.runs, kept);
   keep_at(set.sessions, kept);
@@ -205,7 +205,7 @@ FilmReport attach_films(experiment::RunSet& set, const std::vector<NamedFilm>& f
   for (std::size_t i = 0; i < set.runs.size(); ++i)
     if (set.runs[i].odometry.empty())
       throw Error(fmt::format("the recording '{}' holds no odometry", set.names[i]),
-                  {Help::leave_run_out, set.names[i]});
+                  FilmedRunProblem::no_odometry, {set.names[i]});
   std::vector<Shown> shown = shown_runs(set, films);
   leave_out_unseen(set, shown, films, report);
   say_places(set, films, shown, report);

@@ -4,13 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/film/runs/run_placement.hpp"
 #include "host/film/track/film_track.hpp"
 
 /// Films as the ground truth of runs.
 namespace astro::film {
+
+/// Values: the name of the run.
+enum class FilmedRunProblem { no_odometry };
 
 /// A film that was followed, and what its errors call it.
 struct NamedFilm {

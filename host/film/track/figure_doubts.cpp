@@ -141,7 +141,7 @@ std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit)
         fmt::format("by the film and what was measured, the height of the robot's tag is {} and not {}, as "
                     "is usual",
                     length(fit->scene.robot_height_m), length(usual.value)),
-        {Help::give_tag_height}};
+        FilmProblem::unusual_height};
   return doubt;
 }
 
@@ -205,9 +205,9 @@ FigureDoubt several(const FilmFigures& given, const std::vector<FigureCheck>& ch
     clauses.push_back(clause(given, one));
     gross = gross && is_gross(given, one);
   }
-  return {{fmt::format("at least two of what was measured are wrong; each by all else, {}",
-                       fmt::join(clauses, ", ")),
-           {Help::measure_figure_again}},
+  return {{fmt::format("at least two of what was measured are wrong; each by all else, {}: measure that "
+                       "again, or leave it out",
+                       fmt::join(clauses, ", "))},
           gross,
           given};
 }
@@ -260,7 +260,7 @@ std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const S
                                            : fmt::format("what was measured contradicts itself: either {}",
                                                          fmt::join(clauses, ", or "));
   // Without the robot's tag nothing can be computed.
-  return FigureDoubt{{fact, {Help::measure_figure_again}}, gross || !robot_fits, given};
+  return FigureDoubt{{fact + ": measure that again, or leave it out"}, gross || !robot_fits, given};
 }
 
 }  // namespace astro::film

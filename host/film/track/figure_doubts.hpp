@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/film/camera/figure_check.hpp"
 #include "host/film/camera/scene_fit.hpp"
 #include "host/film/track/film_figures.hpp"
@@ -13,6 +13,16 @@
 /// A figure that somebody mistyped, measured at the wrong place or gave for another one bends camera and scale, and shows only in that
 /// the others contradict it.
 namespace astro::film {
+
+/// What is wrong with the figures that people give for a film.
+enum class FilmProblem {
+  distance_to_robot,
+  distance_to_unseen_tag,
+  other_tag_moves,
+  no_distance,
+  no_height,
+  unusual_height
+};
 
 /// The figures that a person gave, each against all else.
 std::vector<FigureCheck> given_figures(const FilmFigures& given, const SceneFit& fit);

@@ -1,4 +1,5 @@
 #include "host/film/track/film_checks.hpp"
+#include "host/film/picture/how_to_film.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,26 +24,29 @@ constexpr double kShakes_px = 0.7, kMoves_px = 6, kSags_px = 0.5;
 std::string quoted(const fs::path& film) { return "'" + film.string() + "'"; }
 
 [[noreturn]] void refuse_missing(const fs::path& film, const TagDiagnosis& why, const std::string& whose,
-                                 Help otherwise) {
+                                 const char* advice) {
   switch (why.problem) {
     case TagProblem::mirrored:
-      throw Error(fmt::format("{}: {} is a mirror image", quoted(film), whose), {Help::film_mirrored_not});
+      throw Error(
+          fmt::format("{}: {} is a mirror image: film with the rear camera without a mirror effect, and "
+                      "print the tags as they are, not mirrored",
+                      quoted(film), whose));
     case TagProblem::too_small:
       throw Error(fmt::format("{}: {} is too small in the picture: {:.0f} px, and 20 are needed",
-                              quoted(film), whose, why.side_px),
-                  {Help::film_nearer});
+                              quoted(film), whose, why.side_px) +
+                  how_to::kNearer);
     case TagProblem::blurred:
-      throw Error(fmt::format("{}: {} is blurred", quoted(film), whose), {Help::film_sharper});
+      throw Error(fmt::format("{}: {} is blurred", quoted(film), whose) + how_to::kSharper);
     case TagProblem::none_there:
       break;
   }
-  throw Error(fmt::format("{}: {} is not seen", quoted(film), whose), {otherwise});
+  throw Error(fmt::format("{}: {} is not seen", quoted(film), whose) + advice);
 }
 
 [[noreturn]] void refuse_missing(const fs::path& film, const FilmInfo& info,
                                  const std::function<bool(int)>& wanted, const std::string& whose,
-                                 Help otherwise) {
-  refuse_missing(film, why_no_tag(film, info, wanted), whose, otherwise);
+                                 const char* advice) {
+  refuse_missing(film, why_no_tag(film, info, wanted), whose, advice);
 }
 
 double typical(std::vector<double> values) {
@@ -123,15 +127,15 @@ std::optional<int> moves_instead(const FloorSurvey& survey) {
   const std::string pair = fmt::format("{}:{}", tape.from, tape.to);
   if (id == figures.robot_id)
     throw Error(fmt::format("{}: a distance is given to tag {}, which is the robot's", quoted(film), id),
-                {Help::correct_tape, pair});
+                FilmProblem::distance_to_robot, {pair});
   std::vector<int> seen;
   for (const SeenFloorTag& tag : survey.floor) seen.push_back(tag.id);
   const std::string whose = fmt::format("floor tag {}, to which a distance is given,", id);
   const TagDiagnosis why = why_no_tag(film, info, [&](int other) { return other == id; });
   if (why.problem == TagProblem::none_there)
     throw Error(fmt::format("{}: {} is not seen, but {} are", quoted(film), whose, fmt::join(seen, ", ")),
-                {Help::correct_tape, pair});
-  refuse_missing(film, why, whose, Help::film_floor_tags);
+                FilmProblem::distance_to_unseen_tag, {pair});
+  refuse_missing(film, why, whose, how_to::kFloorTags);
 }
 
 }  // namespace
@@ -139,40 +143,41 @@ std::optional<int> moves_instead(const FloorSurvey& survey) {
 void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey& survey,
                    const FilmFigures& figures) {
   if (survey.pictures == 0)
-    throw Error(quoted(film) + " is a truncated film: no picture of it can be decoded",
-                {Help::take_original_film});
+    throw Error(quoted(film) + " is a truncated film: no picture of it can be decoded" +
+                how_to::kTakeOriginal);
   const std::string robot = fmt::format("the robot's tag (tag36h11, id {})", figures.robot_id);
   const auto is_robot = [&](int id) { return id == figures.robot_id; };
   if (survey.two_robots_s)
-    throw Error(fmt::format("{}: {} is at two places at {:.1f} s", quoted(film), robot, *survey.two_robots_s),
-                {Help::film_one_robot});
+    throw Error(
+        fmt::format("{}: {} is at two places at {:.1f} s", quoted(film), robot, *survey.two_robots_s) +
+        how_to::kOneRobot);
   // One tag that is not the robot's may be carried through the picture; several move only if the picture does.
   if (survey.moving.size() >= 2 && survey.moving.size() > survey.floor.size())
     throw Error(
         fmt::format("{}: the camera was moved, or its stabilisation moves the picture: floor tags {} are not "
                     "where they were",
-                    quoted(film), fmt::join(survey.moving, ", ")),
-        {Help::film_from_fixed_camera});
+                    quoted(film), fmt::join(survey.moving, ", ")) +
+        how_to::kFixedCamera);
   if (survey.floor.empty() && survey.robot.empty())
     refuse_missing(
-        film, info, [](int) { return true; }, "the tag", Help::film_robot_tag);
+        film, info, [](int) { return true; }, "the tag", how_to::kRobotTag);
   if (const auto other = moves_instead(survey))
     throw Error(fmt::format("{}: {} lies still, but id {} moves", quoted(film), robot, *other),
-                {Help::name_robot_tag, std::to_string(*other)});
+                FilmProblem::other_tag_moves, {std::to_string(*other)});
   if (survey.robot.empty()) {
     if (!survey.moving.empty())
       throw Error(
           fmt::format("{}: {} is not seen, but id {} moves", quoted(film), robot, survey.moving.front()),
-          {Help::name_robot_tag, std::to_string(survey.moving.front())});
-    refuse_missing(film, info, is_robot, robot, Help::film_robot_tag);
+          FilmProblem::other_tag_moves, {std::to_string(survey.moving.front())});
+    refuse_missing(film, info, is_robot, robot, how_to::kRobotTag);
   }
   if (survey.floor.empty())
     refuse_missing(
-        film, info, [&](int id) { return !is_robot(id); }, "a tag on the floor", Help::film_floor_tags);
+        film, info, [&](int id) { return !is_robot(id); }, "a tag on the floor", how_to::kFloorTags);
   if (survey.floor.size() == 1)
     throw Error(
-        fmt::format("{}: only one tag on the floor is seen, id {}", quoted(film), survey.floor.front().id),
-        {Help::film_floor_tags});
+        fmt::format("{}: only one tag on the floor is seen, id {}", quoted(film), survey.floor.front().id) +
+        how_to::kFloorTags);
   for (const FilmFigures::Length& tape : figures.tapes)
     for (const int id : {tape.from, tape.to})
       if (!lies_on_floor(survey, id)) refuse_tape(film, info, survey, figures, tape, id);
@@ -184,17 +189,17 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
   const double decoded_s = sightings.last_s - sightings.first_s;
   if (info.duration_s - decoded_s > kLess_s + 0.02 * info.duration_s)
     throw Error(fmt::format("{} is a truncated film: pictures end after {:.1f} of {:.1f} s", quoted(film),
-                            decoded_s, info.duration_s),
-                {Help::take_original_film});
+                            decoded_s, info.duration_s) +
+                how_to::kTakeOriginal);
   constexpr double kLongestGap_s = 600;
   if (sightings.longest_gap_s > kLongestGap_s)
     throw Error(fmt::format("{}: its times are wrong: no pictures for {:.0f} s from {:.1f} s on",
-                            quoted(film), sightings.longest_gap_s, sightings.gap_at_s),
-                {Help::take_original_film});
+                            quoted(film), sightings.longest_gap_s, sightings.gap_at_s) +
+                how_to::kTakeOriginal);
   if (sightings.two_robots_s)
     throw Error(fmt::format("{}: the robot's tag is at two places at {:.1f} s", quoted(film),
-                            *sightings.two_robots_s),
-                {Help::film_one_robot});
+                            *sightings.two_robots_s) +
+                how_to::kOneRobot);
   // One that is too small to be followed was seen in the survey, which looks closer.
   std::vector<double> sides, widths;
   for (const auto& one : survey.robot) sides.push_back(shortest_side(one.corners));
@@ -204,21 +209,21 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
   }
   if (const double side = typical(sides); side < kSmall_px)
     throw Error(fmt::format("{}: the robot's tag is too small in the picture: {:.0f} px, and 20 are needed",
-                            quoted(film), side),
-                {Help::film_nearer});
+                            quoted(film), side) +
+                how_to::kNearer);
   constexpr std::size_t kLeast = 30;
   if (sightings.pictures < kLeast)
     throw Error(
-        fmt::format("{} is too short: {} pictures in {:.1f} s", quoted(film), sightings.pictures, decoded_s),
-        {Help::film_to_the_end});
+        fmt::format("{} is too short: {} pictures in {:.1f} s", quoted(film), sightings.pictures, decoded_s) +
+        how_to::kToTheEnd);
   if (sightings.robot.size() < kLeast)
     throw Error(fmt::format("{}: the robot's tag is seen in {} of {} pictures only", quoted(film),
-                            sightings.robot.size(), sightings.pictures),
-                {Help::film_whole_field});
+                            sightings.robot.size(), sightings.pictures) +
+                how_to::kWholeField);
   if (const double width = typical(widths); width > kBlurred_px)
     throw Error(fmt::format("{}: the picture is blurred: the edges of the robot's tag are {:.1f} px wide",
-                            quoted(film), 2 * width),
-                {Help::film_sharper});
+                            quoted(film), 2 * width) +
+                how_to::kSharper);
 }
 
 void refuse_motion(const fs::path& film, const CameraMotion& motion) {
@@ -227,13 +232,13 @@ void refuse_motion(const fs::path& film, const CameraMotion& motion) {
         fmt::format(
             "{}: the picture shakes by {:.1f} px (the camera is not fixed, or its stabilisation moves the "
             "picture)",
-            quoted(film), motion.shake_px),
-        {Help::film_from_fixed_camera});
+            quoted(film), motion.shake_px) +
+        how_to::kFixedCamera);
   if (motion.most_px > kMoves_px)
     throw Error(fmt::format("{}: the camera was moved: from about {:.1f} s on the floor tags are {:.0f} px "
                             "from where they were",
-                            quoted(film), motion.most_at_s, motion.most_px),
-                {Help::film_from_fixed_camera});
+                            quoted(film), motion.most_at_s, motion.most_px) +
+                how_to::kFixedCamera);
 }
 
 void refuse_track(const fs::path& film, const FilmTrack& track) {
@@ -245,15 +250,17 @@ void refuse_track(const fs::path& film, const FilmTrack& track) {
     throw Error(
         fmt::format(
             "{}: the floor tags do not lie flat on one floor, or differ in size: tag {} is {:.1f} px off",
-            quoted(film), worst->id, worst->misfit_px),
-        {Help::lay_floor_tags_flat});
+            quoted(film), worst->id, worst->misfit_px) +
+        how_to::kFlatFloorTags);
   if (track.found.poses.size() * 2 < track.sightings.robot.size() || track.found.corner_px > 1)
     throw Error(fmt::format("{}: the corners of the robot's tag fit no square on a flat floor ({:.1f} px)",
-                            quoted(film), track.found.corner_px),
-                {Help::film_sharper});
+                            quoted(film), track.found.corner_px) +
+                how_to::kSharper);
   if (const auto at = jump_in(track.found.poses))
-    throw Error(fmt::format("{}: the film is cut: the robot jumps at {:.2f} s", quoted(film), *at),
-                {Help::film_uncut});
+    throw Error(
+        fmt::format("{}: the film is cut: the robot jumps at {:.2f} s: film everything in one go, and take "
+                    "the file as the phone wrote it",
+                    quoted(film), *at));
 }
 
 namespace {
@@ -286,7 +293,7 @@ void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
     }
     const std::string when = fmt::format("from {:.1f} to {:.1f} s", span.from_s, span.to_s);
     if (span.left_picture)
-      to.push_back({"the robot's tag is out of the picture " + when, {Help::film_whole_field}});
+      to.push_back({"the robot's tag is out of the picture " + when + how_to::kWholeField});
     else
       to.push_back({"the robot's tag is hidden " + when, {}});
   }
@@ -318,7 +325,7 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
         {"nobody measured a distance, so the scale is not found: what the film shows is the ratio of the "
          "wheels "
          "and of the wheelbase to them",
-         {Help::measure_distance}});
+         FilmProblem::no_distance});
   if (track.figures.scale_measured())
     for (const UnusualSide& side : unusual_sides(track.figures, track.scene))
       all.push_back({fmt::format(
@@ -328,22 +335,23 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
           side.kind == FigureKind::floor_side ? "floor tags" : "robot's tag", 1e3 * side.found_m,
           1e3 * side.usual_m, 50 * side.part())});
   if (track.floor.size() < 4)
-    all.push_back({fmt::format("only {} tags on the floor are seen", track.floor.size()),
-                   {Help::film_more_floor_tags}});
+    all.push_back(
+        {fmt::format("only {} tags on the floor are seen: four to six around the field check one another",
+                     track.floor.size())});
   for (const FloorTagReport& tag : track.floor) {
     if (tag.misfit_px > kRough_px)
       all.push_back(
-          {fmt::format("floor tag {} is {:.1f} px off the plane of the others", tag.id, tag.misfit_px),
-           {Help::lay_floor_tags_flat}});
+          {fmt::format("floor tag {} is {:.1f} px off the plane of the others", tag.id, tag.misfit_px) +
+           how_to::kFlatFloorTags});
     if (tag.side_px < kSmall_px)
       all.push_back(
-          {fmt::format("floor tag {} is only {:.0f} px high", tag.id, tag.side_px), {Help::film_nearer}});
+          {fmt::format("floor tag {} is only {:.0f} px high", tag.id, tag.side_px) + how_to::kNearer});
   }
   std::vector<double> sides;
   for (const RobotTagSeen& one : seen.robot) sides.push_back(shortest_side(one.corners));
   if (const double least = *std::min_element(sides.begin(), sides.end()); least < kUneasy_px)
-    all.push_back({fmt::format("the robot's tag is only {:.0f} px high where it is farthest", least),
-                   {Help::film_nearer}});
+    all.push_back({fmt::format("the robot's tag is only {:.0f} px high where it is farthest", least) +
+                   how_to::kNearer});
   if (!ever_moves(track))
     all.push_back(
         {fmt::format("the robot's tag (id {}) does not move in the whole film", track.figures.robot_id), {}});
@@ -352,31 +360,30 @@ std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey
     all.push_back({fmt::format("nobody gave the height of the robot's tag above the floor, and the scale is "
                                "found to {:.1f} % only",
                                100 * track.scale_sigma),
-                   {Help::give_tag_height}});
+                   FilmProblem::no_height});
   else if (rough && focal_length_error(track) > kRoughFocus)
-    all.push_back(
-        {fmt::format(
-             "the camera looks down so steeply that its focal length hardly shows, and the scale is found to "
-             "{:.1f} % only",
-             100 * track.scale_sigma),
-         {Help::film_obliquely}});
+    all.push_back({fmt::format(
+        "the camera looks down so steeply that its focal length hardly shows, and the scale is found to "
+        "{:.1f} % only: film from the side, looking down by 35 to 60 degrees, if wheels and wheelbase have "
+        "to be right by more",
+        100 * track.scale_sigma)});
   say_hidden(track, all);
   if (drives_at_end(track))
-    all.push_back({"the robot still drives when the film ends", {Help::film_to_the_end}});
+    all.push_back({std::string("the robot still drives when the film ends") + how_to::kToTheEnd});
   if (track.motion.most_px > kSags_px)
     all.push_back({fmt::format("the camera sagged by {:.1f} px, half of it by {:.1f} s, which was taken out",
-                               track.motion.most_px, track.motion.most_at_s),
-                   {Help::film_from_fixed_camera}});
+                               track.motion.most_px, track.motion.most_at_s) +
+                   how_to::kFixedCamera});
   if (seen.longest_gap_s > 0.5)
     all.push_back(
         {fmt::format("no pictures for {:.1f} s from {:.1f} s on", seen.longest_gap_s, seen.gap_at_s), {}});
   if (seen.unordered > 0)
     all.push_back(
         {fmt::format("{} pictures are not a millisecond later than the one before, and were left out",
-                     seen.unordered),
-         {Help::take_original_film}});
+                     seen.unordered) +
+         how_to::kTakeOriginal});
   if (!seen.complaint.empty())
-    all.push_back({"the decoder complains:" + seen.complaint, {Help::take_original_film}});
+    all.push_back({"the decoder complains:" + seen.complaint + how_to::kTakeOriginal});
   for (const int id : survey.moving)
     all.push_back({fmt::format("tag {} moves, and is neither the robot's nor on the floor", id), {}});
   return all;
@@ -387,8 +394,8 @@ std::optional<Remark> departure(const fs::path& film, const FilmTrack& track) {
   for (const HiddenSpan& span : track.hidden)
     if (span.to_s - span.from_s > kLong_s && drives_out(track, span))
       return Remark{fmt::format("{}: the robot drives out of the picture at {:.1f} s, for {:.1f} s",
-                                quoted(film), span.from_s, span.to_s - span.from_s),
-                    {Help::film_whole_field}};
+                                quoted(film), span.from_s, span.to_s - span.from_s) +
+                    how_to::kWholeField};
   return std::nullopt;
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/film/track/film_track.hpp"
 #include "host/film/track/floor_survey.hpp"
 

@@ -121,8 +121,7 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
   };
   SceneFit fit = fitted(figures);
   const std::optional<FigureDoubt> doubt = doubt_about_figures(figures, fit, fitted);
-  if (doubt && doubt->gross)
-    throw Error("'" + film.string() + "': " + doubt->remark.fact, doubt->remark.remedy);
+  if (doubt && doubt->gross) throw Error(doubt->remark.in("'" + film.string() + "': "));
   if (doubt) track.figures = doubt->figures;
   if (doubt && doubt->fit) fit = *doubt->fit;
   track.checked = given_figures(track.figures, fit);
@@ -138,7 +137,7 @@ FilmTrack follow_film(const std::filesystem::path& film, const FilmFigures& figu
     for (const UnusualSide& side : unusual_sides(figures, track.scene))
       track.scale_sigma = std::max(track.scale_sigma, side.part() / 2);
   track.remarks = remarks_on(track, survey);
-  if (doubt && !doubt->remark.fact.empty()) track.remarks.insert(track.remarks.begin(), doubt->remark);
+  if (doubt && !doubt->remark.sentence.empty()) track.remarks.insert(track.remarks.begin(), doubt->remark);
   return track;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/film/camera/figure_check.hpp"
 #include "host/film/camera/scene.hpp"
 #include "host/film/picture/film_info.hpp"

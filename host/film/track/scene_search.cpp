@@ -1,4 +1,5 @@
 #include "host/film/track/scene_search.hpp"
+#include "host/film/picture/how_to_film.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,8 @@ SceneFit find_scene(const FilmInfo& info, const std::vector<SeenFloorTag>& floor
   const Figures figures = figures_with_errors(given);
   auto start = floor_start(floor, info.width, info.height, figures.floor_side_m.value);
   if (!start)
-    throw Error("the floor tags are seen as if they did not lie on one floor", {Help::lay_floor_tags_flat});
+    throw Error(std::string("the floor tags are seen as if they did not lie on one floor") +
+                how_to::kFlatFloorTags);
   start->robot_side_m = figures.robot_side_m.value;
   start->robot_height_m = figures.robot_height_m.value;
   start->readout_s = given.readout_s;

@@ -45,8 +45,8 @@ ScratchFolder::ScratchFolder() {
   std::string pattern = (parent / "bag-XXXXXX").string();
   if (error || ::mkdtemp(pattern.data()) == nullptr) {
     if (!error) error = {errno, std::generic_category()};
-    throw Error("cannot make a temporary folder in " + parent.string() + ": " + error.message(),
-                {Help::check_permissions_and_disk});
+    throw Error("cannot make a temporary folder in " + parent.string() + ": " + error.message() +
+                ": check its permissions and the disk");
   }
   path_ = pattern;
 }
@@ -119,8 +119,8 @@ class BagReader {
       case BagFileKind::none:
         break;
     }
-    throw Error(part.name + " is not a bag: it begins like no .db3, .mcap or .zstd file",
-                {Help::name_right_file});
+    throw Error(part.name +
+                " is not a bag: it begins like no .db3, .mcap or .zstd file: name the right file");
   }
 
   void read_database(const Part& part) {
@@ -164,8 +164,8 @@ class BagReader {
   static void copy_file(const fs::path& from, const fs::path& to) {
     std::error_code error;
     if (!fs::copy_file(from, to, error))
-      throw Error("cannot copy " + from.string() + " to " + to.string() + ": " + error.message(),
-                  {Help::check_permissions_and_disk});
+      throw Error("cannot copy " + from.string() + " to " + to.string() + ": " + error.message() +
+                  ": check its permissions and the disk");
   }
 
   void read_mcap_file(const Part& part) {
@@ -203,7 +203,7 @@ class BagReader {
         expand_zstd_file(source, 64 * kMebibyte + 256 * source.size(), [&](ByteView piece) {
           if (!out.write(reinterpret_cast<const char*>(piece.data()),
                          static_cast<std::streamsize>(piece.size())))
-            throw Error("cannot write " + unpacked.string(), {Help::check_permissions_and_disk});
+            throw Error("cannot write " + unpacked.string() + ": check its permissions and the disk");
         });
     out.close();
     if (expansion != Expansion::whole) {

@@ -75,7 +75,7 @@ class Db3Reader {
   using Entry = TopicTable::Entry;
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(file_.name + " " + what, {Help::name_right_file});
+    throw Error(file_.name + " " + what + ": name the right file");
   }
   std::string why() const { return sqlite3_errmsg(database_.get()); }
   void damage(const std::string& what) {

@@ -61,8 +61,8 @@ class Db3Writer::Impl {
     fs::create_directories(folder_, error);
     if (error) throw Error("cannot make the folder " + folder_.string() + ": " + error.message());
     if (!fs::is_empty(folder_, error))
-      throw Error(folder_.string() + " is not empty, and a bag is a folder of its own",
-                  {Help::use_other_folder});
+      throw Error(folder_.string() +
+                  " is not empty, and a bag is a folder of its own: choose another folder");
     file_ = folder_ / (folder_.filename().string() + "_0.db3");
     part_ = file_.string() + ".part";
     sqlite3* raw = nullptr;
@@ -128,8 +128,8 @@ class Db3Writer::Impl {
 
  private:
   [[noreturn]] void fail() const {
-    throw Error("cannot write " + part_.string() + ": " + sqlite3_errmsg(database_.get()),
-                {Help::check_disk_or_use_other_folder});
+    throw Error("cannot write " + part_.string() + ": " + sqlite3_errmsg(database_.get()) +
+                "; check the disk or choose another folder");
   }
   void run(const char* sql) {
     if (sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail();

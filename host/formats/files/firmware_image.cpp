@@ -41,7 +41,7 @@ std::vector<std::uint8_t> record(const std::string& line, const std::string& whe
   for (const std::uint8_t byte : bytes) sum += byte;
   if (line[0] != ':' || bytes.size() < 5 || bytes.size() != bytes[0] + 5U || sum % 256 != 0 ||
       (bytes[3] == kUpperHalf && bytes[0] != 2))
-    throw Error(where + " is no Intel HEX record", {Help::build_image_again});
+    throw Error(where + " is no Intel HEX record: build the image again");
   return bytes;
 }
 
@@ -73,10 +73,10 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
       std::filesystem::is_regular_file(hex, missing);  // to open a pipe would wait for its writer
   std::ifstream file;
   if (regular) file.open(hex);
-  if (!regular || !file) throw Error(fmt::format("cannot read '{}'", hex.string()), {Help::build_image});
+  if (!regular || !file) throw Error(fmt::format("cannot read '{}'", hex.string()), ImageProblem::unreadable);
   if (std::filesystem::file_size(hex, missing) > kMostHexBytes)
     throw Error(fmt::format("'{}' is larger than any image for a Teensy 4.0", hex.string()),
-                {Help::build_image});
+                ImageProblem::too_large);
   FirmwareImage image{std::vector<std::uint8_t>(FirmwareImage::kBytes, 0xFF), "", ""};
   std::uint32_t upper = 0;
   int number = 0;
@@ -95,10 +95,10 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
           fmt::format("{} lies at 0x{:08X}, where a Teensy 4.0 has no program memory", where, address));
     std::memcpy(image.flash.data() + (address - FirmwareImage::kBase), bytes.data() + 4, bytes[0]);
   }
-  if (!ended) throw Error(fmt::format("'{}' has no end", hex.string()), {Help::build_image_again});
+  if (!ended) throw Error(fmt::format("'{}' has no end: build the image again", hex.string()));
   if (word(image.flash, kConfigurationAt) != kConfigurationTag ||
       word(image.flash, kVectorTableAt) != kVectorTableTag || word(image.flash, kFlashBytesAt) != kFlashBytes)
-    throw Error(fmt::format("'{}' is no image for a Teensy 4.0", hex.string()), {Help::build_image});
+    throw Error(fmt::format("'{}' is no image for a Teensy 4.0", hex.string()), ImageProblem::of_other_board);
   image.version = version_in(image.flash);
   if (!image.version.empty()) image.board = board_in(image.flash);
   return image;

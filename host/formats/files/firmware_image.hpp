@@ -7,6 +7,9 @@
 
 namespace astro {
 
+/// What is no image for this board.
+enum class ImageProblem { unreadable, too_large, of_other_board };
+
 /// What flashing a file writes into a Teensy 4.0.
 struct FirmwareImage {
   static constexpr std::uint32_t kBase = 0x6000'0000, kBytes = 0x1F'0000;  // the parameters begin after it

@@ -60,7 +60,8 @@ class Walker {
 
  private:
   [[noreturn]] void refuse(int line, const std::string& what) const {
-    throw Error(std::string(name_) + ", line " + std::to_string(line) + ": " + what, {Help::name_right_file});
+    throw Error(std::string(name_) + ", line " + std::to_string(line) + ": " + what +
+                ": name the right file");
   }
 
   void take(const yaml_event_t& event) {

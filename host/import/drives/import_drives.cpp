@@ -48,8 +48,8 @@ void refuse_twins(std::span<const DriveFiles> files) {
     for (std::size_t j = 0; j < i; ++j)
       if (fs::weakly_canonical(files[i].wheels) == fs::weakly_canonical(files[j].wheels))
         throw Error("'" + files[i].wheels.string() +
-                        "' is given twice, and a drive that counts twice would seem more certain than it is",
-                    {Help::name_other_file});
+                    "' is given twice, and a drive that counts twice would seem more certain than it is: "
+                    "name another file");
 }
 
 /// A copy under another name would count twice as well.
@@ -65,8 +65,7 @@ void refuse_copy(const recording::Run& run, std::span<const recording::Run> othe
     if (std::ranges::equal(run.odometry, others[i].odometry, same_wheels) &&
         std::ranges::equal(run.truth, others[i].truth, same_truth))
       throw Error("'" + name + "' is a copy of '" + names[i] +
-                      "', and a drive that counts twice would seem more certain than it is",
-                  {Help::name_other_file});
+                  "', and a drive that counts twice would seem more certain than it is: name another file");
 }
 
 constexpr std::size_t kLongestDescription = 4
@@ -108,7 +107,7 @@ RobotGeometry completed_by_description(RobotGeometry given, const fs::path& bag,
     sizes = described_wheels(found->urdf, wheels.joints);
   } catch (const Error& error) {
     throw Error(fmt::format("{}, {}: {}", bag.string(), found->topic, error.what()),
-                {Help::give_wheel_diameter});
+                ImportProblem::sizes_not_described);
   }
   if (!given.wheel_diameter_m) given.wheel_diameter_m = 2 * sizes.radius_m;
   if (!given.wheelbase_m) given.wheelbase_m = sizes.separation_m;
@@ -176,10 +175,10 @@ void settle_direction(const std::string& name, const truth::FloorFindings& findi
             "'{}': the body is {:.2f} m below the tracker's origin, so the axis that seems to point up "
             "may point down and the wheels may be exchanged",
             name, -findings.height_m),
-        {Help::exchange_wheels_or_give_up});
+        ImportProblem::below_origin);
   if (!findings.turns_against_wheels) return;
   const std::string fact = "'" + name + "': the wheels turn the robot the other way than the ground truth";
-  if (findings.up_given) throw Error(fact, {Help::exchange_wheels_or_change_up});
+  if (findings.up_given) throw Error(fact, ImportProblem::turns_against_stated_up);
   if (findings.height_m > kClear_m) {
     remarks.push_back({"the wheels show that the tracker's axis that seems to point up points down"});
     return;
@@ -187,9 +186,9 @@ void settle_direction(const std::string& name, const truth::FloorFindings& findi
   if (findings.height_m < -kClear_m)
     throw Error(
         fmt::format("{}, and the body is {:.2f} m above the tracker's origin", fact, -findings.height_m),
-        {Help::exchange_wheels_or_give_up});
+        ImportProblem::turns_against_wheels);
   throw Error(fact + ", and nothing shows which of the two is a mirror image",
-              {Help::exchange_wheels_or_give_up});
+              ImportProblem::turns_against_wheels);
 }
 
 /// Samples in a second, from the first to the last.
@@ -241,8 +240,7 @@ PairedDrive paired(const std::string& name, const DriveFiles& files, const Impor
   try {
     return pair_up(name, std::move(wheels), truth, sizes, choices.floor);
   } catch (const Error& error) {
-    throw Error("'" + files.wheels.string() + "' with '" + files.truth.string() + "': " + error.what(),
-                error.remedy());
+    throw Error(error.in("'" + files.wheels.string() + "' with '" + files.truth.string() + "': "));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/import/drives/robot_geometry.hpp"
 #include "host/import/drives/truth_file.hpp"

@@ -54,8 +54,8 @@ RobotGeometry of_parameters(const fs::path& path) {
     if (found == file.parameters.end()) return std::nullopt;
     const double* value = std::get_if<double>(&found->second);
     if (value == nullptr || !(*value > 0))
-      throw Error(fmt::format("'{}': [parameters] {} is not a number above 0", path.string(), name),
-                  {Help::correct_or_replace_file});
+      throw Error(fmt::format("'{}': [parameters] {} is not a number above 0: correct or replace it",
+                              path.string(), name));
     return *value;
   };
   RobotGeometry geometry;
@@ -102,7 +102,7 @@ RobotGeometry read_robot_file(const fs::path& path, const std::string& node) {
 
 experiment::ParameterValues parameters_of(const RobotGeometry& geometry, const fs::path& path) {
   if (!geometry.wheelbase_m)
-    throw Error("'" + path.string() + "' has no wheel_separation", {Help::name_other_file});
+    throw Error("'" + path.string() + "' has no wheel_separation: name another file");
   experiment::ParameterValues values{
       {"c_R", geometry.c_r}, {"c_L", geometry.c_l}, {"b", *geometry.wheelbase_m}, {"e", geometry.e}};
   if (geometry.wheel_diameter_m) values["wheel_diameter"] = *geometry.wheel_diameter_m;
@@ -110,11 +110,12 @@ experiment::ParameterValues parameters_of(const RobotGeometry& geometry, const f
 }
 
 RobotGeometry complete_geometry(RobotGeometry geometry, WheelUnit unit) {
-  if (!geometry.wheelbase_m) throw Error("the wheelbase of the robot is not known", {Help::give_wheelbase});
+  if (!geometry.wheelbase_m)
+    throw Error("the wheelbase of the robot is not known", ImportProblem::no_wheelbase);
   if (!geometry.wheel_diameter_m)
-    throw Error("the diameter of the robot's wheels is not known", {Help::give_wheel_diameter});
+    throw Error("the diameter of the robot's wheels is not known", ImportProblem::no_wheel_diameter);
   if (!geometry.counts_per_turn && unit == WheelUnit::counts)
-    throw Error("how many counts make a turn of the wheel is not known", {Help::give_counts_per_turn});
+    throw Error("how many counts make a turn of the wheel is not known", ImportProblem::no_counts_per_turn);
   return geometry;
 }
 

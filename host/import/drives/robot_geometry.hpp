@@ -11,6 +11,19 @@
 
 namespace astro::importing {
 
+/// What keeps a drive of another program from being taken.
+enum class ImportProblem {
+  sizes_not_described,
+  no_wheelbase,
+  no_wheel_diameter,
+  no_counts_per_turn,
+  turns_too_far,
+  leaps,
+  below_origin,
+  turns_against_wheels,
+  turns_against_stated_up
+};
+
 /// The wheels of any robot as its own program takes them: nominal sizes, and what its odometry multiplied them by
 /// while it drove.
 struct RobotGeometry {

@@ -68,7 +68,7 @@ void refuse_leaps(const std::string& name, const WheelTrack& track, const Counte
       throw Error(
           fmt::format("'{}': a wheel turns more than {} times between the samples at {:.3f} s and {:.3f} s",
                       name, kMostTurns, from_s, to_s),
-          {Help::check_wheel_units});
+          ImportProblem::turns_too_far);
     const double way_m = counts * counter.wheel.metres_per_count();
     if (way_m > kAtOnce_m + kMost_mps * (to_s - from_s))
       throw Error(
@@ -76,7 +76,7 @@ void refuse_leaps(const std::string& name, const WheelTrack& track, const Counte
               "'{}': a wheel leaps by {:.2f} m between the samples at {:.3f} s and {:.3f} s, as where "
               "a counter starts again",
               name, way_m, from_s, to_s),
-          {Help::cut_recording_or_check_wheel_units});
+          ImportProblem::leaps);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/import/drives/robot_geometry.hpp"
 #include "host/import/drives/wheel_file.hpp"
 #include "host/recording/run.hpp"

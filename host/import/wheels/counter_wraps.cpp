@@ -71,10 +71,10 @@ double passes_between(const WheelSample& from, const WheelSample& to, Wheel whee
   const double passes = -std::round(jump / range.size);
   if (passes == 0 || pace.fits(std::abs(jump + passes * range.size), time_s)) return passes;
   if (pace.fits(std::abs(jump), time_s)) return 0;
-  throw Error(who + " jumps from " + to_text(from.*wheel) + " to " + to_text(to.*wheel) + " at " +
-                  seconds_text(to.time_ns / 1000) +
-                  " s, which is neither motion nor the end of a counter, as where a counter starts again",
-              {Help::cut_recording});
+  throw Error(
+      who + " jumps from " + to_text(from.*wheel) + " to " + to_text(to.*wheel) + " at " +
+      seconds_text(to.time_ns / 1000) +
+      " s, which is neither motion nor the end of a counter, as where a counter starts again; cut it there");
 }
 
 void unwrap_wheel(WheelTrack& track, Wheel wheel, const Range& range, const std::string& name,

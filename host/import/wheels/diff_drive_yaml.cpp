@@ -31,8 +31,7 @@ double positive(const bag::YamlScalar& scalar, std::string_view name) {
   const auto value = number_in(scalar.value);
   if (!value || !std::isfinite(*value) || *value <= 0)
     throw Error(std::string(name) + ", line " + std::to_string(scalar.line) + ": '" + scalar.value +
-                    "' is no number above 0",
-                {Help::correct_or_replace_file});
+                "' is no number above 0: correct or replace it");
   return *value;
 }
 
@@ -66,15 +65,15 @@ DiffDriveParameters diff_drive_parameters(std::string_view text, std::string_vie
     if (parameters.wheel_radius_m > 0 || parameters.wheel_separation_m > 0) nodes.push_back(at);
   if (nodes.empty())
     throw UnclearChoice(std::string(name) + " has no wheel_radius and no wheel_separation of a controller",
-                        nodes, Help::name_controller);
+                        nodes, WheelProblem::controller_unclear);
   if (node.empty() && nodes.size() > 1)
     throw UnclearChoice(std::string(name) + " has several controllers of wheels: " + listed(nodes), nodes,
-                        Help::name_controller);
+                        WheelProblem::controller_unclear);
   const std::string chosen = node.empty() ? nodes.front() : std::string(node);
   const auto found = controllers.by_node.find(chosen);
   if (found == controllers.by_node.end())
     throw UnclearChoice(std::string(name) + " has no controller '" + chosen + "'; it has " + listed(nodes),
-                        nodes, Help::name_controller);
+                        nodes, WheelProblem::controller_unclear);
   found->second.node = chosen;
   return found->second;
 }

@@ -67,7 +67,7 @@ class JointWheels {
                              : topic_.empty() ? " has several topics of joints: "
                                               : " has no topic " + topic_ + " of joints; it has ";
     throw UnclearChoice(path_.string() + what + (topics.empty() ? "" : listed(topics)), topics,
-                        Help::name_wheel_topic);
+                        WheelProblem::topic_unclear);
   }
 
   void choose_joints() {
@@ -87,7 +87,7 @@ class JointWheels {
       if (!recognised)
         throw UnclearChoice(path_.string() + ": which joints of " + topic_ +
                                 " are the wheels cannot be told from their names: " + listed(names),
-                            names, Help::name_wheel_joints);
+                            names, WheelProblem::joints_unclear);
       joints_ = *recognised;
       remark("the wheels are the joints " + joints_.left + " and " + joints_.right);
     }
@@ -95,10 +95,10 @@ class JointWheels {
       if (!found.contains(joint))
         throw UnclearChoice(
             path_.string() + ": " + topic_ + " has no joint '" + joint + "'; it has " + listed(names), names,
-            Help::name_wheel_joints);
+            WheelProblem::joints_unclear);
     if (joints_.left == joints_.right)
       throw UnclearChoice(path_.string() + ": both wheels are the joint " + joints_.left, names,
-                          Help::name_wheel_joints);
+                          WheelProblem::joints_unclear);
     track_.joints = joints_;
     // Other drivers on the same topic may have no clock.
     stamps_ = found.at(joints_.left);
@@ -152,8 +152,7 @@ class JointWheels {
     if (track_.clock == WheelClock::stamp) stamps_.remark("messages of " + topic_, track_.remarks);
     if (track_.samples.size() < 2)
       throw Error(path_.string() + ": " + topic_ + " has fewer than two messages with both wheels (" +
-                      joints_.left + ", " + joints_.right + ")",
-                  {Help::name_right_file});
+                  joints_.left + ", " + joints_.right + "): name the right file");
   }
 
   const std::filesystem::path& path_;

@@ -102,7 +102,7 @@ const PoseStream* recognised(std::span<const PoseStream* const> streams, bool na
     for (const PoseStream& stream : all) names.push_back(stream.name());
     throw UnclearChoice(
         path.string() + (all.empty() ? " has no poses" : " has no such poses; it has " + listed(names)),
-        names, Help::name_pose_stream);
+        names, WheelProblem::poses_unclear);
   }
   const bool any = std::ranges::any_of(left, [](const PoseStream* stream) { return !is_estimate(*stream); });
   const std::vector<std::string> names = names_of(left);
@@ -111,7 +111,7 @@ const PoseStream* recognised(std::span<const PoseStream* const> streams, bool na
           (any ? " has several streams of poses: "
                : " has no poses of a tracker that can be told from a robot's own odometry; it has ") +
           listed(names),
-      names, Help::name_pose_stream);
+      names, WheelProblem::poses_unclear);
 }
 
 }  // namespace

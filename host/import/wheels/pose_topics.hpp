@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/import/wheels/stamp_count.hpp"
 
 /// Poses in bags, from whatever published them: ground truth of a tracker, or a robot's own odometry.

@@ -14,8 +14,9 @@ void require_possible(std::uint64_t samples, std::uint64_t least_bytes, const ch
   for (const std::filesystem::path& file : bag::bag_files(path).files)
     bytes += std::filesystem::file_size(file);
   if (samples > kFreeSamples + bytes / least_bytes)
-    throw Error(path.string() + " holds more " + what + " than are taken from a file of its size",
-                {Help::copy_or_record_again});
+    throw Error(path.string() + " holds more " + what +
+                " than are taken from a file of its size: copy it again from where it was recorded, or "
+                "record the run again");
 }
 
 }  // namespace astro::importing

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 
 namespace astro::importing {
 

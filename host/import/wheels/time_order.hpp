@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 
 namespace astro::importing {
 

@@ -8,11 +8,23 @@
 
 namespace astro::importing {
 
+/// What a file alone does not tell.
+enum class WheelProblem {
+  columns_unclear,
+  joints_unclear,
+  topic_unclear,
+  poses_unclear,
+  controller_unclear,
+  nothing_to_choose
+};
+
 /// What was meant cannot be told from a file alone, or is not in it; choices() is what there is to choose from.
 class UnclearChoice : public Error {
  public:
-  UnclearChoice(const std::string& fact, std::vector<std::string> choices, Help help)
-      : Error(fact, {choices.empty() ? Help::name_right_file : help}), choices_(std::move(choices)) {}
+  UnclearChoice(const std::string& sentence, std::vector<std::string> choices, WheelProblem unclear)
+      : Error(choices.empty() ? sentence + ": name the right file" : sentence,
+              choices.empty() ? WheelProblem::nothing_to_choose : unclear),
+        choices_(std::move(choices)) {}
   const std::vector<std::string>& choices() const { return choices_; }
 
  private:

@@ -192,7 +192,7 @@ class Table {
       const std::vector<std::string> found(names.begin(), names.end());
       throw UnclearChoice(
           name_ + ": the columns do not tell time, left and right wheel with their units: " + listed(found),
-          found, Help::name_wheel_columns);
+          found, WheelProblem::columns_unclear);
     }
     columns_ = *columns;
     columns_.per_interval = columns_.per_interval || given_.per_interval;
@@ -204,8 +204,8 @@ class Table {
   [[noreturn]] void refuse_cell(std::size_t at, const std::string& what) const {
     const bool comma = separator_ != ',' && cell(at).find(',') != std::string_view::npos;
     refuse(name_, lines_.line(),
-           "column " + std::to_string(at + 1) + ": '" + std::string(cell(at)) + "' " + what,
-           {comma ? Help::write_decimal_point : Help::none});
+           "column " + std::to_string(at + 1) + ": '" + std::string(cell(at)) + "' " + what +
+               (comma ? "; write it with a decimal point" : ""));
   }
 
   double travel(std::size_t at) const {
@@ -218,8 +218,9 @@ class Table {
     if (cell(columns_.time).empty() || cell(columns_.left).empty() || cell(columns_.right).empty()) {
       // What a row of travel per interval does not say is missing in all rows after it.
       if (columns_.per_interval)
-        refuse(name_, lines_.line(), "a cell is empty, and travel per interval cannot be left out",
-               {Help::fill_each_cell});
+        refuse(name_, lines_.line(),
+               "a cell is empty, and travel per interval cannot be left out: give every column a cell, and "
+               "write numbers with a decimal point");
       ++incomplete_;
       return;
     }
@@ -229,7 +230,8 @@ class Table {
     if (!track_.samples.empty()) {
       const WheelSample& before = track_.samples.back();
       if (sample.time_ns < before.time_ns)
-        refuse(name_, lines_.line(), "the time is before that of the row above", {Help::sort_rows});
+        refuse(name_, lines_.line(),
+               "the time is before that of the row above; sort the rows, or leave the column out");
       if (columns_.per_interval) {
         sample.left += before.left;
         sample.right += before.right;
@@ -241,7 +243,8 @@ class Table {
       }
     }
     if (track_.samples.size() >= most_rows_)
-      refuse(name_, lines_.line(), "the table has more rows than can be held", {Help::split_into_files});
+      refuse(name_, lines_.line(),
+             "the table has more rows than can be held: split it into one file for each run");
     track_.samples.push_back(sample);
   }
 
@@ -261,12 +264,11 @@ class Table {
     constexpr double kHarmless = 1e-4;  // of the travel: a tenth of what calibrations are good for
     const auto lost = find_lost_rows(track_.samples);
     if (!lost || lost->part < kHarmless) return;
-    throw Error(
-        fmt::format(
-            "{} has lost rows in {} places, the first before {:.3f} s: after longer steps the wheels have "
-            "gone no further than in others, so {:.2g} % of the travel is missing",
-            name_, lost->steps, 1e-9 * static_cast<double>(lost->first_ns), 100 * lost->part),
-        {Help::log_running_counts});
+    throw Error(fmt::format(
+        "{} has lost rows in {} places, the first before {:.3f} s: after longer steps the wheels have "
+        "gone no further than in others, so {:.2g} % of the travel is missing: record again, and log the "
+        "counters themselves, of which a lost row takes nothing away",
+        name_, lost->steps, 1e-9 * static_cast<double>(lost->first_ns), 100 * lost->part));
   }
 
   LineReader lines_;

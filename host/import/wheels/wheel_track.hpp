@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/import/wheels/joint_names.hpp"
 
 /// What the wheels of any robot did, as it was recorded and before any geometry is applied.

@@ -12,7 +12,7 @@ OdometryGeometry OdometryGeometry::of(const std::map<std::string, double>& param
   const auto number = [&](const char* name) {
     const auto found = parameters.find(name);
     if (found == parameters.end())
-      throw Error("the robot has no parameter '" + std::string(name) + "'", {Help::update_both});
+      throw Error("the robot has no parameter '" + std::string(name) + "'; update both");
     return found->second;
   };
   const double counts_per_turn =

@@ -88,7 +88,7 @@ void require_near(const robot::RemoteParameters& robot, const std::map<std::stri
                    (number == nullptr ? '\'' + std::get<std::string>(value) + '\'' : to_text(*number));
   }
   throw Error(fmt::format("{}: a person has to confirm that", fmt::join(far, "; ")),
-              {Help::confirm_values, assignments});
+              TableProblem::needs_confirmation, {assignments});
 }
 
 /// A whole number also stands for a real one, because people leave out the point.

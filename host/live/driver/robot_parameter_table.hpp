@@ -9,6 +9,9 @@
 
 namespace astro::live {
 
+/// Values: the assignments, "b=0.3 c_R=1.002".
+enum class TableProblem { needs_confirmation };
+
 /// A parameter of the node itself, for all to read.
 struct OwnParameter {
   std::string name, doc;

@@ -138,7 +138,7 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
   void report_refusal(const std::string& origin) {
     if (rules_.refused.size() >= kMostReported || !rules_.refused.insert(origin).second) return;
     if (origin_can_be_proposed(origin))
-      rules_.notice({fmt::format("a page of '{}' was refused", origin), {Help::allow_origin, origin}});
+      rules_.notice({fmt::format("a page of '{}' was refused", origin), OriginProblem::refused, {origin}});
     else
       rules_.notice({"a page was refused whose origin no browser gives to a web site", {}});
   }

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/live/foxglove/hub.hpp"
 
 namespace astro::foxglove {

@@ -6,6 +6,9 @@
 
 namespace astro::foxglove {
 
+/// Values: the origin of the page.
+enum class OriginProblem { refused };
+
 /// Whether a connection may come from this web page. A browser names the page's origin ("https://app.foxglove.dev") in each
 /// WebSocket handshake, and a page cannot change it; so this keeps any page that somebody happens to look at from reading or
 /// driving the robot, also if that page's host name leads to this computer (DNS rebinding).

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "host/base/bytes.hpp"
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/live/foxglove/client_messages.hpp"
 
 /// What clients ask of the robot, and the robot's thread has to do; the server itself answers everything else.

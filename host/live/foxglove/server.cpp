@@ -42,7 +42,7 @@ tcp::acceptor listening(asio::io_context& io, const Address& wanted) {
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error)
     throw Error(fmt::format("cannot listen at {}, port {}: {}", wanted.ip, wanted.port, error.message()),
-                {error == asio::error::address_in_use ? Help::choose_other_tcp_port : Help::none});
+                error == asio::error::address_in_use ? Kind(ServerProblem::port_taken) : Kind());
   return acceptor;
 }
 

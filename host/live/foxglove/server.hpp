@@ -10,6 +10,8 @@
 
 namespace astro::foxglove {
 
+enum class ServerProblem { port_taken };
+
 struct Address {
   std::string ip = "127.0.0.1";  // of this computer's networks; "0.0.0.0" or "::": all of them
   std::uint16_t port = 8765;     // 0: any that is free

@@ -69,7 +69,7 @@ void Course::check_room() const {
     if (std::abs(moved_m(side, origin_)) > bounds_.distance_m)
       throw Error(fmt::format("stopped: the {} wheel got further than {:g} m from its start", name(side),
                               bounds_.distance_m),
-                  {Help::give_more_room});
+                  BenchProblem::out_of_room);
 }
 
 // Ends the measurement if the robot turns on the spot or a wheel does not turn.
@@ -79,11 +79,11 @@ void Course::check_sense(double voltage_V, const Moment& from) const {
     const double forward_m = moved_m(side, from) * std::copysign(1.0, voltage_V);
     if (forward_m < -kBackward_m)
       throw Error(fmt::format("stopped: the {} wheel counts backward under forward voltage", name(side)),
-                  {Help::check_wiring});
+                  BenchProblem::counts_backward);
     if (std::abs(voltage_V) >= stands_V && std::abs(forward_m) < 10 * bench_.facts().count_m[at(side)])
       throw Error(fmt::format("stopped: the {} wheel does not turn, or does not count, at {:.1f} V",
                               name(side), std::abs(voltage_V)),
-                  {stands_V < kFeeble_V ? Help::check_wiring_or_raise_voltage : Help::check_wiring});
+                  stands_V < kFeeble_V ? BenchProblem::stands_at_little_voltage : BenchProblem::stands);
   }
 }
 
@@ -144,7 +144,7 @@ IdentifiedMotor Course::identity(Side side) const {
   try {
     wheel.fit = fit_motor(samples(side, rise_begin_[0], bench_.moments().size()), count_m);
   } catch (const Error& error) {
-    throw Error(fmt::format("the {} wheel {}", name(side), error.what()), error.remedy());
+    throw Error(error.in(fmt::format("the {} wheel ", name(side))));
   }
   return wheel;
 }

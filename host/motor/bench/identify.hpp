@@ -19,6 +19,9 @@
 ///          stall fault.
 namespace astro::motor {
 
+/// What ends a measurement of the motors.
+enum class BenchProblem { out_of_room, counts_backward, stands, stands_at_little_voltage };
+
 struct Bounds {
   double voltage_V = 5;
   double distance_m = std::numeric_limits<double>::infinity();  // from the start, to either side

@@ -116,13 +116,13 @@ std::optional<double> observer_for(DesignTask task) {
 
 [[noreturn]] void refuse(const DesignTask& task, double largest_radps, Limit because) {
   const auto observer = observer_for(task);
-  const Remedy more =
-      observer ? Remedy{Help::set_observer_bandwidth, fmt::format("{:.0f}", *observer)} : Remedy{};
+  const std::string more =
+      observer ? fmt::format("; an observer_bandwidth of {:.0f} rad/s would allow it", *observer) : "";
   const std::string what = because == Limit::noise ? "the steps of the encoder would rattle the motors"
                            : observer              ? "the wheel speed observer lags too much for it"
                                                    : "the observer and the tick of 1 ms lag too much for it";
   throw Error(fmt::format("a bandwidth of {:.3g} Hz is too much, {}: at most {:.1f} Hz are possible",
-                          hertz(task.bandwidth_radps), what, hertz(largest_radps)),
+                          hertz(task.bandwidth_radps), what, hertz(largest_radps)) +
               more);
 }
 
@@ -201,11 +201,10 @@ double quantisation_speed_mps(double observer_radps, double count_m, double tick
 Design design_gains(const DesignTask& wanted) {
   DesignTask task = wanted;
   if (!(task.motor.kV > 0) || !(task.motor.kA > 0))
-    throw Error("the measured motor model has no positive kV and kA", {Help::measure_with_more_voltage});
+    throw Error("the measured motor model has no positive kV and kA: measure again with more voltage");
   const Largest largest = largest_crossover(task);
   if (largest.crossover_radps == 0)
-    throw Error("the encoder is too coarse for any speed loop with this observer",
-                {Help::lower_observer_bandwidth});
+    throw Error("the encoder is too coarse for any speed loop with this observer: lower observer_bandwidth");
   // Rounded down, so that the figure in the refusal is itself accepted.
   const double most_radps = bandwidth_at(task, largest.crossover_radps);
   if (task.bandwidth_radps == 0) {

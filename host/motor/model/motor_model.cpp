@@ -186,7 +186,8 @@ double r_squared(const std::vector<Pair>& windows, const Eigen::VectorXd& residu
 }
 
 void check(const MotorModel& model) {
-  if (!(model.kV > 0) || !(model.kA > 0)) throw Error("does not follow its voltage", {Help::check_wiring});
+  if (!(model.kV > 0) || !(model.kA > 0))
+    throw Error("does not follow its voltage", MotorProblem::does_not_follow);
 }
 
 }  // namespace

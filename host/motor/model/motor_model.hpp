@@ -30,6 +30,8 @@
 ///            Automatica 6 (1970).
 namespace astro::motor {
 
+enum class MotorProblem { does_not_follow };
+
 enum class Side : std::uint8_t { left, right };
 inline constexpr std::array kSides{Side::left, Side::right};
 constexpr std::size_t at(Side side) { return static_cast<std::size_t>(side); }

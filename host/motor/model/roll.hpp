@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 
 /// Counts per revolution from rolling the robot by hand along a tape measure.
 namespace astro::motor {

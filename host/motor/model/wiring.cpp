@@ -47,11 +47,11 @@ class Judge {
   }
 
  private:
-  void find(std::string fault, std::string fact, Help help = Help::none) {
-    verdict_.findings.push_back({std::move(fault), {std::move(fact), {help}}});
+  void find(std::string fault, std::string sentence) {
+    verdict_.findings.push_back({std::move(fault), {std::move(sentence)}});
   }
-  void by_hand(std::string fault, std::string fact, Help help = Help::none) {
-    find(std::move(fault), std::move(fact), help);
+  void by_hand(std::string fault, std::string sentence) {
+    find(std::move(fault), std::move(sentence));
     verdict_.needs_hands = true;
   }
 
@@ -80,7 +80,9 @@ void Judge::by_eye() {
 bool Judge::same_wheel_twice() {
   const auto left = probes_[0].seen->wheel, right = probes_[1].seen->wheel;
   if (!left || left != right) return false;
-  by_hand("one_wheel", fmt::format("both motor outputs turn the {} wheel", name(*left)), Help::check_leads);
+  by_hand("one_wheel",
+          fmt::format("both motor outputs turn the {} wheel: look at which leads go where, and check again",
+                      name(*left)));
   return true;
 }
 
@@ -90,7 +92,9 @@ void Judge::place_motors() {
     const auto wheel = probes_[at(channel)].seen->wheel;
     crossed = crossed || (wheel && *wheel != channel);
   }
-  if (crossed) by_hand("motors_swapped", "the motors are swapped", Help::exchange_motor_leads);
+  if (crossed)
+    by_hand("motors_swapped",
+            "the motors are swapped: exchange the leads of the left and the right motor at the driver");
 }
 
 void Judge::place_encoders() {
@@ -100,7 +104,9 @@ void Judge::place_encoders() {
     const Answer& answer = answers_[at(channel)];
     crossed = crossed || (wheel && answer.encoder && *answer.encoder != *wheel);
   }
-  if (crossed) by_hand("encoders_swapped", "the encoders are swapped", Help::exchange_encoder_plugs);
+  if (crossed)
+    by_hand("encoders_swapped",
+            "the encoders are swapped: exchange the plugs of the left and the right encoder");
 }
 
 // The polarities belong to the wheel: they are right once its motor and encoder are connected to it.
@@ -108,14 +114,14 @@ void Judge::orient(Side channel) {
   const Sighting& seen = *probes_[at(channel)].seen;
   if (!seen.wheel) {
     if (answers_[at(channel)].motion == Motion::none)
-      by_hand(fmt::format("{}_motor_dead", name(channel)),
-              fmt::format("the {} motor does not turn at {:.1f} V", name(channel),
-                          probes_[at(channel)].voltage_V),
-              Help::check_motor_supply);
+      by_hand(
+          fmt::format("{}_motor_dead", name(channel)),
+          fmt::format("the {} motor does not turn at {:.1f} V: look at its leads, the driver and its supply",
+                      name(channel), probes_[at(channel)].voltage_V));
     else
-      find("contradiction",
-           fmt::format("an encoder counted while no wheel was seen turning for the {} motor", name(channel)),
-           Help::look_again);
+      find("contradiction", fmt::format("an encoder counted while no wheel was seen turning for the {} "
+                                        "motor: check again and look closely",
+                                        name(channel)));
     return;
   }
   const Side wheel = *seen.wheel;
@@ -134,14 +140,14 @@ void Judge::judge_encoder(Side channel, Side wheel) {
   const Answer& answer = answers_[at(channel)];
   if (answer.motion == Motion::none)
     return by_hand(fmt::format("{}_encoder_dead", name(wheel)),
-                   fmt::format("the {} encoder does not count while its wheel turns", name(wheel)),
-                   Help::check_encoder_supply);
+                   fmt::format("the {} encoder does not count while its wheel turns: look at its plug, its "
+                               "supply and both channels",
+                               name(wheel)));
   if (answer.motion == Motion::toggles)
     return by_hand(fmt::format("{}_channel_missing", name(wheel)),
                    fmt::format("the {} encoder counts up and down by one: one of its two channels does not "
-                               "arrive",
-                               name(wheel)),
-                   Help::check_encoder_wires);
+                               "arrive; look at both wires",
+                               name(wheel)));
   const int turned = probes_[at(channel)].seen->forward ? 1 : -1;
   const int counted = answer.motion == Motion::forward ? 1 : -1;
   const int encoder = turned * counted * polarities_.encoder[at(*answer.encoder)];
@@ -177,9 +183,8 @@ void Judge::by_counts(Side channel) {
     case Motion::toggles:
       return by_hand(fmt::format("{}_channel_missing", name(*answer.encoder)),
                      fmt::format("the {} encoder counts up and down by one: one of its two channels does not "
-                                 "arrive",
-                                 name(*answer.encoder)),
-                     Help::check_encoder_wires);
+                                 "arrive; look at both wires",
+                                 name(*answer.encoder)));
     case Motion::backward:
       return find(fmt::format("{}_motor_or_encoder_reversed", side),
                   fmt::format("the {} wheel counts backward while its motor is driven forward: motor or "

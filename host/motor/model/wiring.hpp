@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/motor/model/motor_model.hpp"
 
 /// Finds wiring faults of a robot from driving one motor after the other.

@@ -12,20 +12,13 @@
 #include "host/base/error.hpp"
 #include "host/base/interrupted.hpp"
 #include "host/base/system_error.hpp"
-#include "host/commands/base/remedies.hpp"
-#include "host/commands/calibrate/commands.hpp"
-#include "host/commands/drive/commands.hpp"
-#include "host/commands/experiment/commands.hpp"
-#include "host/commands/live/commands.hpp"
-#include "host/commands/robot/commands.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/shared/robot_view.hpp"
-#include "host/commands/simulate/commands.hpp"
-#include "host/commands/truth/commands.hpp"
-#include "host/commands/tune/commands.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/programs/astrolabe/all_commands.hpp"
 
 namespace {
 
@@ -33,15 +26,6 @@ using namespace astro::commands;  // NOLINT(google-build-using-namespace): this 
 using namespace astro::console;   // NOLINT(google-build-using-namespace): and how they meet the terminal
 
 constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
-
-void add_commands(Command app) {
-  for (const auto add :
-       {add_umbmark, add_calibrate, add_upload,  add_record,  add_compare,      add_report, add_sim,
-        add_ports,   add_info,      add_params,  add_drive,   add_stop,         add_pause,  add_resume,
-        add_faults,  add_reboot,    add_flash,   add_monitor, add_check_wiring, add_tune,   add_plan,
-        add_study,   add_export,    add_inspect, add_truth,   add_tags,         add_ros2,   add_serve})
-    add(app);
-}
 
 int run(int argc, char** argv) {
   Program program("astrolabe", "Calibrates the odometry of differential-drive robots.");
@@ -51,7 +35,7 @@ int run(int argc, char** argv) {
   const Command app = program.command();
   app.require_subcommand(1, 1);
   app.footer("'astrolabe COMMAND --help' shows options and examples.");
-  add_commands(app);
+  add_all(app);
   const int code = program.run(argc, argv);
   flush_output();
   return code;

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "host/base/error.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/base/served_robot_options.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/console/program.hpp"
+#include "host/formats/files/firmware_image.hpp"
 #include "host/programs/emulator/served_teensy.hpp"
 
 namespace {
@@ -34,7 +35,13 @@ void run(const fs::path& hex, commands::SimOptions& options) {
   commands::serve(server, "an emulated robot");
 }
 
+constexpr commands::Advice kImageAdvice[] = {
+    {ImageProblem::unreadable, ": build one with './dev firmware'"},
+    {ImageProblem::too_large, ": build one with './dev firmware'"},
+    {ImageProblem::of_other_board, ": build one with './dev firmware'"}};
+
 int run(int argc, char** argv) {
+  commands::advise(kImageAdvice);
   console::Program program(
       "astrolabe-emulator",
       "Runs a robot's firmware image on an emulated Teensy 4.0 behind a pseudo terminal.");

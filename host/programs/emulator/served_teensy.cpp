@@ -13,7 +13,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 
 namespace astro::emulator {

@@ -60,8 +60,7 @@ void Client::reconnect(microseconds timeout) {
       connect();
       break;
     } catch (const Error& error) {
-      if (now() >= deadline || tries <= 0)
-        throw LinkLost(std::string("the link did not come back: ") + error.what(), error.remedy());
+      if (now() >= deadline || tries <= 0) throw LinkLost(error.in("the link did not come back: "));
     }
   }
   const protocol::HelloReply answers = std::exchange(robot_, known);
@@ -100,16 +99,16 @@ Client::Body Client::exchange(Body frame, std::uint16_t id, std::string_view req
 }
 
 void Client::not_understood(std::string_view request) const {
-  throw Error("the answer of " + name() + " to " + std::string(request) +
-                  " cannot be understood although its check sum is right: firmware and this program differ",
-              {Help::update_both});
+  throw Error(
+      "the answer of " + name() + " to " + std::string(request) +
+      " cannot be understood although its check sum is right: firmware and this program differ; update both");
 }
 
 void Client::fail_silent(const std::string& when) {
   const Remark why = transport_.why_silent();
   const std::string silent = name() + " does not answer any more" + (when.empty() ? "" : " " + when);
-  if (why.fact.empty()) throw LinkLost(silent, {Help::check_robot_is_on});
-  throw LinkLost(silent + ": " + why.fact, why.remedy);
+  if (why.sentence.empty()) throw LinkLost(silent + ": is the robot still on and connected?");
+  throw LinkLost(why.in(silent + ": "));
 }
 
 bool Client::step(microseconds deadline) {
@@ -144,7 +143,7 @@ void Client::dispatch_event(Body body) {
   if (const auto missed = protocol::decode<protocol::EventsMissed>(body); missed.ok())
     counts_.missed_events += missed->count;
   if (const auto farewell = protocol::decode<Farewell>(body); farewell.ok())
-    throw LinkLost("lost " + name() + ": " + std::string(fact(farewell->reason)), {help(farewell->reason)});
+    throw LinkLost("lost " + name() + ": " + std::string(fact(farewell->reason)));
   std::apply([&](auto&... listeners) { (deliver(listeners), ...); }, listeners_);
   const bool booted = body.front() == protocol::Booted::kId;
   if (booted && waiting_for_ != 0 && !connecting_) {

@@ -16,7 +16,7 @@ FoundPort ask(const Port& port, microseconds timeout, unsigned baud) {
     Client client(open_shared_port(port.address, baud));
     result.robot = client.connect({timeout / kTries, kTries});
   } catch (const Error& error) {
-    result.reason = {error.what(), error.remedy()};
+    result.reason = error.remark();
   }
   return result;
 }

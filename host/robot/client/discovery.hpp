@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/protocol/session.hpp"
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/robot/port/open_transport.hpp"
 #include "host/robot/port/ports.hpp"
 

@@ -3,33 +3,34 @@
 namespace astro::robot {
 
 Error no_robot(const std::string& name, const NoAnswer& came) {
-  if (!came.why_silent.fact.empty())
-    return Error(name + " does not answer: " + came.why_silent.fact, came.why_silent.remedy);
+  if (!came.why_silent.sentence.empty()) return Error(came.why_silent.in(name + " does not answer: "));
   if (came.echo)
     return Error(name + " sends back what it is sent: it is a looped-back line or a terminal, not a robot");
-  if (came.bytes == 0) return Error(name + " does not answer", {Help::check_robot_and_baud});
+  if (came.bytes == 0)
+    return Error(name +
+                 " does not answer: is it a robot running Astrolabe, switched on and set to this baud rate?");
   if (came.good_frames == 0)
     return Error(
         name +
         " is not an Astrolabe robot: it sends bytes that are no Astrolabe frames (another device, or "
         "another baud rate)");
-  return Error(name + " sends Astrolabe frames but does not answer", {Help::check_line});
+  return Error(name + " sends Astrolabe frames but does not answer: is the line to the robot connected?");
 }
 
 void require_version(const std::string& name, std::uint16_t theirs) {
   constexpr std::uint16_t kOurs = protocol::kProtocolVersion;
   if (theirs == kOurs) return;
   throw Error("the robot at " + name + " speaks protocol " + std::to_string(theirs) +
-                  ", this program speaks " + std::to_string(kOurs),
-              {theirs > kOurs ? Help::update_program : Help::update_firmware});
+              ", this program speaks " + std::to_string(kOurs) +
+              (theirs > kOurs ? ": update this program" : ": update the robot's firmware"));
 }
 
 void require_same_robot(const std::string& name, const protocol::HelloReply& known,
                         const protocol::HelloReply& answers) {
   if (answers.unique_id == known.unique_id) return;
   throw Error("another robot, '" + std::string(answers.robot_name.view()) + "', answers at " + name +
-                  " where '" + std::string(known.robot_name.view()) + "' was before",
-              {Help::connect_first_robot});
+              " where '" + std::string(known.robot_name.view()) +
+              "' was before: connect the first one again");
 }
 
 std::string firmware_version(const protocol::HelloReply& robot) {

@@ -38,7 +38,7 @@ std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint1
 RobotRefused::RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
                            std::string_view why)
     : Error(sentence(what, code, detail, why),
-            {code == protocol::ErrorCode::faulted && why.empty() ? Help::clear_faults : Help::none}),
+            code == protocol::ErrorCode::faulted && why.empty() ? Kind(RobotProblem::faulted) : Kind()),
       code_(code),
       detail_(detail) {}
 

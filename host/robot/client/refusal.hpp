@@ -9,6 +9,9 @@
 
 namespace astro::robot {
 
+/// What keeps a robot from driving.
+enum class RobotProblem { faulted };
+
 /// The robot answered a request with ErrorReply: it was not carried out and has changed nothing.
 class RobotRefused : public Error {
  public:

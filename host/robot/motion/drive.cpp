@@ -59,7 +59,7 @@ DriveSession::~DriveSession() {
     end();
   } catch (const NotStopped& error) {
     try {
-      hooks_.notice({error.what(), error.remedy()});
+      hooks_.notice(error.remark());
     } catch (const std::exception&) {  // nobody can be notified
     }
   } catch (const std::exception&) {  // a fault, by which the robot has switched its motors off
@@ -72,9 +72,8 @@ void DriveSession::end() {
     rest_and_disarm();
   } catch (const std::exception& error) {
     const auto* known = dynamic_cast<const Error*>(&error);
-    throw NotStopped(
-        "the robot did not confirm that it stopped, and may still be moving: " + std::string(error.what()),
-        known == nullptr ? Remedy{} : known->remedy());
+    constexpr const char* kMayMove = "the robot did not confirm that it stopped, and may still be moving: ";
+    throw NotStopped(known == nullptr ? Remark{std::string(kMayMove) + error.what()} : known->in(kMayMove));
   }
   if (fault_) fail(*fault_);
 }
@@ -100,8 +99,8 @@ Status DriveSession::status_unless_stopped() {
   if (!client_.learns_of_stop(status)) return status;
   const PortUsers users = port_users(client_);
   throw Error(another_program(users.stopper_pid, users.stopper_command) +
-                  " has stopped the robot since this one drove it last",
-              {Help::start_again});
+                  " has stopped the robot since this one drove it last: start again once it may drive",
+              DriveProblem::stopped_by_another);
 }
 
 /// A program that was killed leaves an armed robot behind; the robot notices it by its time-out.
@@ -240,13 +239,13 @@ void DriveSession::fail_armed() {
   const PortUsers users = port_users(client_);
   if (users.driver_pid != 0) fail_busy();
   throw Error("the robot stands and is armed, for another program or for one that has gone",
-              {Help::stop_other_program});
+              DriveProblem::armed_for_another);
 }
 
 void DriveSession::fail_busy() {
   const PortUsers users = port_users(client_);
   throw Error("the robot is driving for " + another_program(users.driver_pid, users.driver_command),
-              {Help::stop_other_program});
+              DriveProblem::driven_by_another);
 }
 
 /// The reason may arrive after the end: after a fault the robot reports the aborted segment first.

@@ -6,12 +6,16 @@
 #include <string>
 
 #include "common/safety/fault.hpp"
+#include "host/base/error.hpp"
 #include "host/base/interrupted.hpp"
-#include "host/base/remedy.hpp"
 #include "host/robot/client/client.hpp"
+#include "host/robot/client/refusal.hpp"
 #include "host/robot/sharing/relay_messages.hpp"
 
 namespace astro::robot {
+
+/// What keeps a program from driving a robot that others use, too.
+enum class DriveProblem { stopped_by_another, armed_for_another, driven_by_another };
 
 /// Faults that a program leaves behind that ended or lost its link while the robot drove. Whoever arms the robot next may clear
 /// them; any other fault is for people.
@@ -23,7 +27,8 @@ Fault first_fault(std::uint32_t mask);
 /// The robot stopped because of a fault, or cannot be armed because of a latched one.
 class DriveFault : public Error {
  public:
-  DriveFault(const std::string& fact, Fault fault) : Error(fact, {Help::clear_faults}), fault_(fault) {}
+  DriveFault(const std::string& sentence, Fault fault)
+      : Error(sentence, RobotProblem::faulted), fault_(fault) {}
   Fault fault() const { return fault_; }
 
  private:

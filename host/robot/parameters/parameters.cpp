@@ -151,7 +151,8 @@ const ParameterRow* RemoteParameters::find(std::string_view name) const {
 
 const ParameterRow& RemoteParameters::row(std::string_view name) const {
   if (const ParameterRow* found = find(name)) return *found;
-  throw Error("the robot has no parameter '" + std::string(name) + "'", {Help::list_parameters});
+  throw Error("the robot has no parameter '" + std::string(name) + "'", ParameterProblem::unknown,
+              {std::string(name)});
 }
 
 ParameterRow& RemoteParameters::mutable_row(std::string_view name) {

@@ -50,8 +50,7 @@ class Upload {
   }
 
   [[noreturn]] static void fail_unknown(const std::string& why) {
-    throw LinkLost(why + "; the robot holds the old set or the new one, whole",
-                   {Help::upload_again_when_it_answers});
+    throw LinkLost(why + "; the robot holds the old set or the new one, whole: upload again once it answers");
   }
 
   void change(RemoteParameters& parameters) {
@@ -85,7 +84,7 @@ class Upload {
     if (!is_old && !is_new) {
       throw Error("the robot at " + client_.name() +
                       " holds neither the old nor the new parameters: another program may have changed them",
-                  {Help::list_parameters});
+                  ParameterProblem::changed_by_another);
     }
     report.active = is_new ? ActiveSet::new_set : ActiveSet::old_set;
     return report;
@@ -97,7 +96,7 @@ class Upload {
 Remark UploadReport::remark() const {
   const std::string drop = link_dropped ? "the link dropped on the way; " : "";
   if (active == ActiveSet::new_set) return {drop + "the robot holds the new set, read back and compared"};
-  return {drop + "the robot holds the old set, unchanged", {Help::upload_again}};
+  return {drop + "the robot holds the old set, unchanged: upload again"};
 }
 
 UploadReport upload(Client& client, const std::map<std::string, Value>& values,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::robot {

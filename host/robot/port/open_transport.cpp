@@ -53,7 +53,7 @@ Stream& StreamTransport<Stream>::stream() {
 template <class Stream>
 void StreamTransport<Stream>::lose(const Remark& why) {
   stream_.reset();
-  throw LinkLost("lost " + name_ + ": " + why.fact, why.remedy);
+  throw LinkLost(why.in("lost " + name_ + ": "));
 }
 
 template <class Stream>
@@ -149,7 +149,7 @@ asio::ip::tcp::socket connect_tcp(asio::io_context& context, const std::string& 
   error_code error;
   socket.connect(endpoint, error);
   if (error)
-    throw Error("nothing listens at " + address + " (" + error.message() + ")", {Help::start_simulator});
+    throw Error("nothing listens at " + address + " (" + error.message() + "): is the simulator running?");
   socket.set_option(asio::ip::tcp::no_delay(true));
   socket.non_blocking(true);
   return socket;
@@ -169,7 +169,7 @@ std::string tcp_key(const std::string& address) {
 }
 
 std::unique_ptr<Transport> open_transport(const std::string& address, unsigned baud) {
-  if (address.empty()) throw Error("no port is named", {Help::find_robots});
+  if (address.empty()) throw Error("no port is named", PortProblem::none_named);
   if (address.starts_with("tcp:")) {
     const auto endpoint = parse_tcp(address);
     return std::make_unique<StreamTransport<asio::ip::tcp::socket>>(

@@ -7,6 +7,8 @@
 
 namespace astro::robot {
 
+enum class PortProblem { none_named };
+
 inline constexpr unsigned kDefaultBaud = 1'000'000;
 
 /// Opens the connection to a robot.

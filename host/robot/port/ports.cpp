@@ -84,16 +84,15 @@ fs::path runtime_folder() {
 }
 
 fs::path make_runtime_folder() {
+  constexpr const char* kChooseFolder = "; set XDG_RUNTIME_DIR to a folder that belongs to you";
   const fs::path folder = runtime_folder();
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    throw system_error("the folder '" + folder.string() + "' cannot be made", errno,
-                       {Help::set_runtime_folder});
+    throw system_error("the folder '" + folder.string() + "' cannot be made", errno, kChooseFolder);
   struct stat about {};
   if (::lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != ::geteuid())
-    throw Error("'" + folder.string() + "' is not a folder of this user", {Help::set_runtime_folder});
+    throw Error("'" + folder.string() + "' is not a folder of this user" + kChooseFolder);
   if ((about.st_mode & 077) != 0 && ::chmod(folder.c_str(), 0700) != 0)
-    throw Error("'" + folder.string() + "' is open to others and cannot be closed",
-                {Help::set_runtime_folder});
+    throw Error("'" + folder.string() + "' is open to others and cannot be closed" + kChooseFolder);
   return folder;
 }
 

@@ -43,9 +43,10 @@ Remark why_not_open(const std::string& path, int error) {
       return {"there is no port " + path + "; " + ports_here()};
     case EACCES:
     case EPERM:
-      return {"no permission to open " + path, {Help::join_serial_group}};
+      return {"no permission to open " + path +
+              ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again"};
     case ELOOP:
-      return {path + " is a link that leads back to itself; " + ports_here(), {Help::name_port}};
+      return {path + " is a link that leads back to itself; " + ports_here() + ": name the port itself"};
     case EISDIR:
       return {path + " is a folder, not a serial port"};
     case EIO:

@@ -13,8 +13,8 @@ namespace astro::robot {
 /// Another program has locked the port.
 class PortInUse : public Error {
  public:
-  PortInUse(const std::string& fact, std::string key)
-      : Error(fact, {Help::end_program}), key_(std::move(key)) {}
+  PortInUse(const std::string& sentence, std::string key)
+      : Error(sentence + ": end that program first"), key_(std::move(key)) {}
   /// The same in all programs, whichever name of the port they use.
   const std::string& key() const { return key_; }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/robot/port/transport.hpp"
 
 /// Transport over an Asio stream (posix::stream_descriptor, ip::tcp::socket). Internal to this room.

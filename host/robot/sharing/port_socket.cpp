@@ -119,10 +119,10 @@ HolderConnection connect_to(const std::string& port_key, microseconds timeout) {
 }
 
 Remark holder_hangs(const PortUser& holder) {
-  if (holder.pid == 0)
-    return {"the program that holds the port does not answer", {Help::await_or_end_program}};
-  return {"the program with " + in_words(holder.pid, holder.command) + " holds the port and does not answer",
-          {Help::await_or_kill_program, std::to_string(holder.pid)}};
+  if (holder.pid == 0) return {"the program that holds the port does not answer: let it go on, or end it"};
+  return {"the program with " + in_words(holder.pid, holder.command) +
+          " holds the port and does not answer: let it go on, or end it with 'kill -9 " +
+          std::to_string(holder.pid) + "'"};
 }
 
 }  // namespace astro::robot

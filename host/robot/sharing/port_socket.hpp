@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/transport.hpp"
 #include "host/robot/sharing/port_user.hpp"

@@ -10,7 +10,7 @@
 #include "common/base/text.hpp"
 #include "common/protocol/enums.hpp"
 #include "common/protocol/field.hpp"
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/robot/sharing/port_user.hpp"
 
 /// Messages between programs that share a port, in addition to the robot's protocol. None of them goes to the
@@ -71,13 +71,9 @@ constexpr std::string_view fact(FarewellReason reason) {
       return "this program did not read what the robot sent, so the program that holds the port has "
              "disconnected it";
     case FarewellReason::too_many:
-      return "too many programs use it at once";
+      return "too many programs use it at once: end some of them";
   }
   return "the program that holds the port has disconnected this one";
-}
-
-constexpr Help help(FarewellReason reason) {
-  return reason == FarewellReason::too_many ? Help::end_some_programs : Help::none;
 }
 
 /// The last frame on a connection that the holder ends. An event.

@@ -116,7 +116,7 @@ Descriptor RelayServer::connect_self() {
 Remark RelayServer::why_ended() const {
   const int end = own_end_;
   const auto reason = end < 0 ? FarewellReason::line_lost : static_cast<FarewellReason>(end);
-  return {std::string(fact(reason)), {help(reason)}};
+  return {std::string(fact(reason))};
 }
 
 void RelayServer::run() {

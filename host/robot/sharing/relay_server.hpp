@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/robot/port/descriptor.hpp"
 #include "host/robot/sharing/relay.hpp"
 

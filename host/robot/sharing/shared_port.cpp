@@ -70,8 +70,7 @@ class SharedPort {
       try {
         shared.listener = listen_at(port_key_of(shared.line.get()));
       } catch (const Error& error) {  // this program can use the port anyway
-        notice_({address_ + ": no other program can stop or watch this robot meanwhile; " + error.what(),
-                 error.remedy()});
+        notice_(error.in(address_ + ": no other program can stop or watch this robot meanwhile; "));
       }
     }
     server_ = std::make_unique<RelayServer>(std::move(shared));
@@ -93,8 +92,7 @@ class SharedPort {
   Descriptor join(const std::string& key) {
     HolderConnection served = connect_to(key, kGreeting);
     if (served.busy) {
-      const Remark why = holder_hangs(*served.busy);
-      throw Error(address_ + ": " + why.fact, why.remedy);
+      throw Error(holder_hangs(*served.busy).in(address_ + ": "));
     }
     if (served.connection) {
       key_ = key;

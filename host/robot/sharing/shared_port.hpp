@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/robot/port/open_transport.hpp"
 
 namespace astro::robot {

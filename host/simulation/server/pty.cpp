@@ -57,8 +57,7 @@ int refer_to(const std::string& device) {
 
 PathClaim claim(const fs::path& link) {
   if (auto claim = PathClaim::of(link)) return std::move(*claim);
-  throw Error("'" + link.string() + "' is in use by another simulator",
-              {Help::stop_simulator_or_choose_other_path});
+  throw Error("'" + link.string() + "' is in use by another simulator", ServerProblem::path_in_use);
 }
 
 /// Whether it is the link of a simulator, which has ended if nobody has claimed the link, or leads nowhere.
@@ -87,12 +86,12 @@ void make_link(const fs::path& target, const fs::path& link) {
   if (left_behind(link)) {
     fs::remove(link);
   } else if (fs::exists(fs::symlink_status(link))) {
-    throw Error("'" + link.string() + "' exists and is not a simulator's", {Help::choose_other_path});
+    throw Error("'" + link.string() + "' exists and is not a simulator's", ServerProblem::path_taken);
   }
   fs::create_symlink(target, link, error);
   if (error)
     throw Error("'" + link.string() + "' cannot be made (" + error.message() + ")",
-                {Help::choose_other_path});
+                ServerProblem::path_refused);
 }
 
 }  // namespace

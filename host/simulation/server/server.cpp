@@ -133,8 +133,8 @@ std::vector<std::uint8_t> load_flash(const fs::path& path) {
   if (path.empty()) return {};
   const fs::file_status status = fs::symlink_status(path);
   if (fs::is_symlink(status))
-    throw Error("'" + path.string() + "' is a link, and saving the robot's flash would replace the link",
-                {Help::name_target_of_link});
+    throw Error("'" + path.string() +
+                "' is a link, and saving the robot's flash would replace the link: name the file itself");
   return fs::exists(status) ? load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
 }
 
@@ -268,7 +268,7 @@ void Server::claim_flash() {
   flash_claim_ = PathClaim::of(config_.flash);
   if (!flash_claim_)
     throw Error(fmt::format("the robot's flash '{}' is in use by another simulator", config_.flash.string()),
-                {Help::stop_simulator_or_choose_other_path});
+                ServerProblem::path_in_use);
 }
 
 void Server::save_flash() {

@@ -1,4 +1,5 @@
 #include "host/simulation/server/truth_server.hpp"
+#include "host/simulation/server/pty.hpp"
 
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -20,7 +21,7 @@ int listen_at(const std::filesystem::path& path) {
   address.sun_family = AF_UNIX;
   const std::string text = path.string();
   if (text.size() >= sizeof(address.sun_path))
-    throw Error("the path '" + text + "' is too long for a socket", {Help::choose_shorter_path});
+    throw Error("the path '" + text + "' is too long for a socket", ServerProblem::path_too_long);
   std::strcpy(address.sun_path, text.c_str());
   std::error_code ignored;
   if (std::filesystem::is_socket(path, ignored)) std::filesystem::remove(path, ignored);

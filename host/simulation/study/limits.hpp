@@ -14,8 +14,7 @@ inline void require_fits_memory(double driving_time_s, double truth_rate_hz, dou
   constexpr double kMostSamples = 20e6;
   if (driving_time_s * (truth_rate_hz + count_rate_hz) <= kMostSamples) return;
   throw Error("some " + std::to_string(std::llround(driving_time_s / 3600)) +
-                  " hours of driving are more than fit into memory",
-              {Help::take_fewer_runs});
+              " hours of driving are more than fit into memory: take fewer or shorter runs, or lower rates");
 }
 
 }  // namespace astro::simulation::study

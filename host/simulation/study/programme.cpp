@@ -46,8 +46,7 @@ void require_runs(const Counts& counts) {
                   ": it has to be 0 to " + std::to_string(kMostRuns));
   if (const int runs = total(counts); runs > kMostRuns)
     throw Error("the programme has " + std::to_string(runs) + " runs and " + std::to_string(kMostRuns) +
-                    " are the most",
-                {Help::drive_longer_runs});
+                " are the most: drive longer ones");
   if (const auto why = why_undetermined(counts)) throw Error(*why);
 }
 
@@ -104,14 +103,15 @@ DriveModel model_of(const Programme& programme) {
 
 std::optional<Remark> why_undetermined(const Counts& counts) {
   const int runs = total(counts);
-  if (runs == 0) return Remark{"the programme is empty", {Help::give_runs}};
+  if (runs == 0) return Remark{"the programme is empty: say how many squares, lines, spins or circles"};
   if (counts[kLines] == runs)
-    return Remark{"lines never turn, so they do not determine the wheelbase", {Help::add_turns}};
+    return Remark{"lines never turn, so they do not determine the wheelbase: add squares, spins or circles"};
   if (counts[kSpins] == runs)
-    return Remark{"spins determine the ratio of wheels and wheelbase but no size", {Help::add_lines}};
+    return Remark{
+        "spins determine the ratio of wheels and wheelbase but no size: add squares, lines or circles"};
   if (counts[kCircles] == 1 && runs == 1)
-    return Remark{"one circle turns in one direction only, which does not separate wheels and wheelbase",
-                  {Help::drive_two_circles}};
+    return Remark{
+        "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two"};
   return std::nullopt;
 }
 

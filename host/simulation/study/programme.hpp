@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/calibration/judgement/precision.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/trajectory.hpp"

@@ -89,8 +89,7 @@ calibration::MlOptions TrialSetup::ml_options() const {
 void TrialSetup::require(Model driven) const {
   if (model != driven)
     throw Error("this is a study of the " + std::string(name_of(model)) + " model, not of the " +
-                    std::string(name_of(driven)) + " model",
-                {Help::use_own_robot});
+                std::string(name_of(driven)) + " model: give it its own robot");
 }
 
 void TrialSetup::check() const {

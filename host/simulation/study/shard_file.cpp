@@ -73,8 +73,7 @@ void require_same(const ShardFile& first, const ShardFile& other) {
   for (const auto& [key, value] : a.items())
     if (b.at(key) != value)
       throw Error("'" + first.name + "' was made with " + key + " " + value.dump() + " and '" + other.name +
-                      "' with " + b.at(key).dump(),
-                  {Help::merge_one_study});
+                  "' with " + b.at(key).dump() + ": merge shards of one study only");
 }
 
 struct SourcedTrial {
@@ -99,7 +98,8 @@ std::vector<SourcedTrial> sorted_by_index(const std::vector<ShardFile>& parts) {
 [[noreturn]] void refuse_gap(int count, int begin, int end) {
   const std::string which =
       end - begin == 1 ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(end - 1);
-  throw Error("of " + std::to_string(count) + " trials " + which + " are missing", {Help::run_or_name_shard});
+  throw Error("of " + std::to_string(count) + " trials " + which +
+              " are missing: run their shard, or name its file, too");
 }
 
 }  // namespace
@@ -113,22 +113,24 @@ std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials) {
 }
 
 ShardFile read_shard_file(const std::string& text, const std::string& name) {
-  if (!json_fits_memory(text)) throw Error("'" + name + "' is not a shard of a study", {Help::name_shard});
+  if (!json_fits_memory(text))
+    throw Error("'" + name + "' is not a shard of a study", StudyProblem::not_a_shard);
   try {
     const json file = json::parse(text);
     if (file.at("format") != kFormat || file.at("methods") != json(kMethods))
-      throw Error("'" + name + "' was written by another version of the study", {Help::run_shard_again});
+      throw Error("'" + name + "' was written by another version of the study",
+                  StudyProblem::shard_of_other_version);
     ShardFile part{name, setup_from(file.at("setup")), {}};
     for (const json& trial : file.at("trials")) part.trials.push_back(trial_from(trial));
     part.setup.check();
     return part;
   } catch (const json::exception&) {
-    throw Error("'" + name + "' is not a shard of a study", {Help::name_shard});
+    throw Error("'" + name + "' is not a shard of a study", StudyProblem::not_a_shard);
   }
 }
 
 std::vector<Trial> merge(const std::vector<ShardFile>& parts) {
-  if (parts.empty()) throw Error("there is nothing to merge", {Help::name_all_shards});
+  if (parts.empty()) throw Error("there is nothing to merge: name the files of all shards");
   const int count = parts.front().setup.trials;
   const std::vector<SourcedTrial> held = sorted_by_index(parts);
   int next = 0;
@@ -136,12 +138,11 @@ std::vector<Trial> merge(const std::vector<ShardFile>& parts) {
     if (trial.index() < 0 || trial.index() >= count)
       throw Error("'" + trial.part->name + "' holds trial " + std::to_string(trial.index()) +
                       " of a study of " + std::to_string(count) + "; it is damaged",
-                  {Help::run_shard_again});
+                  StudyProblem::shard_damaged);
     if (trial.index() < next)
       throw Error("trial " + std::to_string(trial.index()) + " is in '" +
-                      held[static_cast<std::size_t>(next) - 1].part->name + "' and in '" + trial.part->name +
-                      "'",
-                  {Help::name_shard_once});
+                  held[static_cast<std::size_t>(next) - 1].part->name + "' and in '" + trial.part->name +
+                  "': name each shard once");
     if (trial.index() > next) refuse_gap(count, next, trial.index());
     ++next;
   }

@@ -9,6 +9,9 @@
 /// The trials of one shard as text, and several shards merged.
 namespace astro::simulation::study {
 
+/// What is wrong with a shard of a study.
+enum class StudyProblem { not_a_shard, shard_of_other_version, shard_damaged };
+
 struct ShardFile {
   std::string name;  // of the file, for messages
   TrialSetup setup;

@@ -23,8 +23,8 @@ constexpr int kMostRounds = 20;
 constexpr double kTargetMissed = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void refuse_too_fine() {
-  throw Error("a precision this fine takes more than " + std::to_string(kMostRuns) + " runs",
-              {Help::drive_longer_runs_or_ask_less});
+  throw Error("a precision this fine takes more than " + std::to_string(kMostRuns) +
+              " runs: drive longer ones, ask for less, or lessen the slip");
 }
 
 struct Target {
@@ -181,7 +181,7 @@ Forecast shortest_programme(const Precision& precision, const std::vector<Kind>&
     if (missed <= 1) return found;
     factor *= std::max(missed, 1.0001);
   }
-  throw Error("no programme of these runs was found", {Help::give_other_sizes});
+  throw Error("no programme of these runs was found: give other sizes");
 }
 
 }  // namespace astro::simulation::study

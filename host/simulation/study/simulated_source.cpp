@@ -119,9 +119,8 @@ void SimulatedSource::check(const TrialSetup& setup) const {
     throw Error(
         "the simulated robot's tyres do not wind up in spins: only the robot of the kinematic model does");
   if (setup.count_rate_hz != kCountRate_hz)
-    throw Error(
-        "the simulated robot's counts are recorded at " + std::to_string(std::lround(kCountRate_hz)) + " Hz",
-        {Help::keep_count_rate_or_use_kinematic});
+    throw Error("the simulated robot's counts are recorded at " + std::to_string(std::lround(kCountRate_hz)) +
+                " Hz: leave the rate of the counts at that, or take the kinematic model");
 }
 
 simulation::study::Drives SimulatedSource::of_trial(const TrialSetup& setup, int trial) const {

@@ -14,11 +14,13 @@ struct BodyName {
   bool operator==(const BodyName&) const = default;
 };
 
+enum class BodyProblem { unknown };
+
 /// The body asked for is not in the recording, or several could be meant.
 class UnknownBody : public Error {
  public:
-  UnknownBody(const std::string& fact, std::vector<BodyName> bodies)
-      : Error(fact, {Help::name_body}), bodies_(std::move(bodies)) {}
+  UnknownBody(const std::string& sentence, std::vector<BodyName> bodies)
+      : Error(sentence, BodyProblem::unknown), bodies_(std::move(bodies)) {}
   const std::vector<BodyName>& bodies() const { return bodies_; }
 
  private:

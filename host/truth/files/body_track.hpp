@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/truth/source/pose3.hpp"
 
 /// Ground truth as a tracker recorded it: the poses of one body in space.

@@ -72,8 +72,9 @@ std::vector<double> parts_of(const CsvTable& table, const std::string& name) {
   for (const CsvRow& row : table.rows) {
     times.push_back(time ? value(row, *time, name) : static_cast<double>(times.size()));
     if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
-      refuse(name, row.line, "column " + table.header.cells[time->index] + ": the time does not increase",
-             {Help::sort_rows});
+      refuse(name, row.line,
+             "column " + table.header.cells[time->index] +
+                 ": the time does not increase; sort the rows, or leave the column out");
   }
   const double first = times.front(), last = times.back();
   for (double& one : times) one = (one - first) / (last - first);
@@ -135,7 +136,7 @@ Poses poses_from(const fs::path& file, const recording::Run& run, const Ask& ask
         if (old.empty()) return read_poses(file);
         again = {old, {}, AnswerKind::file_saved};
       } catch (const Error& error) {
-        again = {"", {error.what(), error.remedy()}, AnswerKind::file_corrected};
+        again = {"", error.remark(), AnswerKind::file_corrected};
       }
     ask(again);
   }

@@ -16,10 +16,9 @@ std::string_view at_or_empty(const HeaderCells& cells, std::size_t index) {
 }
 
 [[noreturn]] void refuse_without_header(const Rows& rows) {
-  throw Error(
-      "'" + std::string(rows.file()) +
-          "' has no header of Motive with a row that begins with Frame, so its columns have no meaning",
-      {Help::export_with_header});
+  throw Error("'" + std::string(rows.file()) +
+              "' has no header of Motive with a row that begins with Frame, so its columns have no meaning: "
+              "export the recording again with its header");
 }
 
 void read_values(const HeaderCells& cells, MotiveHeader& out) {
@@ -131,12 +130,11 @@ MotiveHeader read_motive_header(Rows& rows) {
   if (out.bodies.empty())
     throw Error(
         "'" + std::string(rows.file()) + "' holds no rigid body with positions" +
-            (headings.type.size() > 3
-                 ? ", only columns of type '" +
-                       std::string(headings.type.back().empty() ? headings.type[2] : headings.type.back()) +
-                       "'"
-                 : ""),
-        {Help::export_rigid_bodies});
+        (headings.type.size() > 3
+             ? ", only columns of type '" +
+                   std::string(headings.type.back().empty() ? headings.type[2] : headings.type.back()) + "'"
+             : "") +
+        ": solve the assets of the take, and export it again with rigid bodies switched on");
   return out;
 }
 

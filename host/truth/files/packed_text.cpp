@@ -70,8 +70,7 @@ class Unpacking {
       } else if (state != Z_OK) {
         const bool cut = taken_ == file_.size();
         throw Error("'" + name_ + "' is packed with gzip and " + (cut ? "cut off" : "damaged") + " at byte " +
-                        std::to_string(taken_),
-                    {Help::use_original});
+                    std::to_string(taken_) + "; use the original");
       }
     }
   }
@@ -96,8 +95,7 @@ class Unpacking {
     taken_ += packed.size() - inflater_->avail_in;
     if (!text_.add(ByteView(out).first(sizeof out - inflater_->avail_out)))
       throw Error("'" + name_ + "' unpacks to more than can be held: with its poses " +
-                      std::to_string(most_ >> 20U) + " MiB",
-                  {Help::unpack_first});
+                  std::to_string(most_ >> 20U) + " MiB: unpack it with gunzip first");
     return state;
   }
 

@@ -107,11 +107,12 @@ void TrackBuilder::add(const TrackedPose& sample, const Rows& rows) {
       return;
     }
     if (sample.time_ns < before)
-      astro::refuse(rows.file(), rows.line(), "the time does not increase", {Help::sort_rows});
+      astro::refuse(rows.file(), rows.line(),
+                    "the time does not increase; sort the rows, or leave the column out");
   }
   if (track_.samples.size() >= most_)
-    astro::refuse(rows.file(), rows.line(), "the file has more rows than can be held",
-                  {Help::split_into_files});
+    astro::refuse(rows.file(), rows.line(),
+                  "the file has more rows than can be held: split it into one file for each run");
   track_.samples.push_back(sample);
 }
 

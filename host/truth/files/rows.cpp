@@ -66,8 +66,8 @@ Decimal take_digits(std::string_view& text, char point) {
 Rows::Rows(std::string_view text, std::string_view file) : rest_(text), file_(file) {
   if (rest_.substr(0, kUtf8Mark.size()) == kUtf8Mark) rest_.remove_prefix(kUtf8Mark.size());
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos)
-    throw Error(std::string(file) + " is not plain text: byte " + std::to_string(at + 1) + " is zero",
-                {Help::save_as_csv});
+    throw Error(std::string(file) + " is not plain text: byte " + std::to_string(at + 1) +
+                " is zero: save the table as comma separated UTF-8");
   end_ = rest_.find('\n') == std::string_view::npos ? '\r' : '\n';
 }
 

@@ -26,12 +26,14 @@ bool is_vicon_start(Rows rows) {
 [[noreturn]] void refuse_kind(FileKind kind, std::string_view text, std::string_view file) {
   const std::string name = "'" + std::string(file) + "'";
   if (kind == FileKind::motive_rows)
-    throw Error(name + " is an export of Motive before version 1.7, whose form is not read",
-                {Help::export_as_table});
+    throw Error(name +
+                " is an export of Motive before version 1.7, whose form is not read: open the take in a "
+                "newer version of Motive and export it again");
   Rows rows(text, file);
   if (rows.next_filled() && cell_number(first_cell(rows.text()), false))
-    throw Error(name + " begins with numbers: without a header its columns have no meaning",
-                {Help::export_with_header});
+    throw Error(name +
+                " begins with numbers: without a header its columns have no meaning: export the recording "
+                "again with its header");
   throw Error(
       name +
       " is none of the recordings that can be read: Motive CSV, Vicon CSV, TUM, EuRoC, or CSV with the "

@@ -36,16 +36,16 @@ Direction3 known_up(const BodyTrack& track, const FloorChoices& choices, FloorFi
   if (evidence.by_positions && evidence.by_rotations && evidence.disagreement_rad > kLargestDisagreement_rad)
     throw Error(
         fmt::format("'{}': positions and orientations are in different frames: the positions lie in a plane "
-                    "with the normal {}, the body turns about {}, {:.0f} degrees apart",
+                    "with the normal {}, the body turns about {}, {:.0f} degrees apart: export positions and "
+                    "orientations with the same axes, and do not change them afterwards",
                     track.name, text_of(*evidence.by_positions), text_of(*evidence.by_rotations),
-                    degrees(evidence.disagreement_rad)),
-        {Help::export_in_one_frame});
+                    degrees(evidence.disagreement_rad)));
   if (evidence.by_positions) return *evidence.by_positions;
   if (evidence.by_rotations) return *evidence.by_rotations;
   if (track.facts.rotation_kind == RotationKind::heading) return {0, 0, 1};
-  throw Error(
-      "'" + track.name + "' does not show which axis points up: the body neither turned nor drove a curve",
-      {Help::drive_lines_and_turns});
+  throw Error("'" + track.name +
+              "' does not show which axis points up: the body neither turned nor drove a curve: drive both "
+              "ways round, and lines as well as turns");
 }
 
 /// Positions in the plane, headings about its normal.
@@ -139,12 +139,10 @@ void settle_units(std::vector<FloorPoint>& points, const BodyTrack& track,
   scale(points, findings.length_factor, findings.length_factor);
   findings.path_m = path_length(points);
   if (findings.unit_ratio != 1 && !choices.length_factor)
-    findings.remarks.push_back(
-        {fmt::format("the path is {:.4g} times as long as that of the wheels, so one of the two "
-                     "has another unit of length than it seems{}",
-                     findings.length_ratio,
-                     stated ? "" : "; the file states none, and its positions were converted"),
-         {Help::check_units}});
+    findings.remarks.push_back({fmt::format(
+        "the path is {:.4g} times as long as that of the wheels, so one of the two "
+        "has another unit of length than it seems{}: check the units",
+        findings.length_ratio, stated ? "" : "; the file states none, and its positions were converted")});
 }
 
 /// Of the heading's turning with the wheels', or of the path's where there are no headings.
@@ -167,8 +165,8 @@ void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMoti
   findings.clock = match_clocks(points, to_metres, wheels);
   if (!findings.clock) {
     findings.remarks.push_back(
-        {"the motion is not that of the wheels, so left and right could not be checked",
-         {Help::check_recorded_together}});
+        {"the motion is not that of the wheels, so left and right could not be checked: check that both were "
+         "recorded together"});
     return;
   }
   findings.turning_correlation = correlation_with(points, turning_of(wheels), *findings.clock);

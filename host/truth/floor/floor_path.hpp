@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/recording/run.hpp"
 #include "host/truth/files/body_track.hpp"
 #include "host/truth/floor/up_axis.hpp"

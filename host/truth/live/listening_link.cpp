@@ -33,13 +33,7 @@ void ListeningLink::listen(const std::stop_token& stop) {
 }
 
 ListeningLink::News ListeningLink::news_of_link() {
-  News news{{},
-            link_->why_silent(),
-            link_->body(),
-            link_->way(),
-            link_->remedy(),
-            link_->bodies(),
-            link_->connections()};
+  News news{{}, link_->why_silent(), link_->body(), link_->way(), link_->bodies(), link_->connections()};
   for (const Sighting& sighting : link_->take()) news.sightings.push(sighting);
   return news;
 }

@@ -32,7 +32,6 @@ class ListeningLink : public TrackerLink {
   void wait(std::chrono::microseconds timeout) override;
   std::vector<Sighting> take() override { return news_.sightings.take(); }
   std::string why_silent() const override { return news_.why_silent; }
-  Remedy remedy() const override { return news_.remedy; }
   std::vector<std::string> bodies() const override { return news_.bodies; }
   const std::string& body() const override { return news_.body; }
   std::string way() const override { return news_.way; }
@@ -42,7 +41,6 @@ class ListeningLink : public TrackerLink {
   struct News {
     Waiting<Sighting> sightings;
     std::string why_silent, body, way;
-    Remedy remedy;
     std::vector<std::string> bodies;
     int connections = 0;
 

@@ -72,8 +72,7 @@ void LiveSource::listen(Need need) {
   while (std::ranges::none_of(held_.all(), enough) ||
          now_().count() - recent_.front().arrival_us < kListening.count()) {
     if (now_() - begin >= kPoseTimeout && std::ranges::none_of(held_.all(), enough))
-      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_missing()),
-                  link_->remedy());
+      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_missing()));
     link_->wait(kStep);
     work(now_());
   }
@@ -167,8 +166,7 @@ std::vector<recording::TruthSample> LiveSource::poll() {
   if (const auto objection = up_axis_.objection()) throw Error(*objection);
   if (now - heard_at_ >= kGone)
     throw Error(fmt::format("no ground truth has come from {} for {} s: {}", url_.place(),
-                            std::chrono::duration_cast<seconds>(kGone).count(), why_missing()),
-                link_->remedy());
+                            std::chrono::duration_cast<seconds>(kGone).count(), why_missing()));
   return std::exchange(samples_, {});
 }
 

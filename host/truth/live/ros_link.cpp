@@ -140,22 +140,19 @@ std::string RosLink::why_silent() const {
   });
   if (published == others_.end()) {
     const std::vector<std::string> topics = pose_topics();
-    return fmt::format("nobody publishes {} {}; {}", topic_, range_in_words(discovery_),
-                       topics.empty() ? "there are no topics with poses"
-                                      : fmt::format("poses are on {}", fmt::join(topics, ", ")));
+    const bool here_alone = discovery_.range != dds::Range::subnet && discovery_.peers.empty();
+    return fmt::format(
+        "nobody publishes {} {}; {}{}", topic_, range_in_words(discovery_),
+        topics.empty() ? "there are no topics with poses"
+                       : fmt::format("poses are on {}", fmt::join(topics, ", ")),
+        here_alone ? "; only this computer is looked at: for others put range=subnet behind the ? of the "
+                     "tracker's address, or set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET"
+                   : "");
   }
   if (!reader_)
     return fmt::format("{} is of the type {}, which holds no poses", topic_,
                        ros2::ros_type_name(published->type).value_or(published->type));
   return fmt::format("{} publishes {}, but {}", node_of(published->guid), topic_, stream_.why_silent());
-}
-
-Remedy RosLink::remedy() const {
-  const bool nobody = std::ranges::none_of(others_, [&](const dds::RemoteEndpoint& other) {
-    return other.writes && other.topic == ros2::wire_name_of_topic(topic_);
-  });
-  const bool here_alone = discovery_.range != dds::Range::subnet && discovery_.peers.empty();
-  return nobody && here_alone ? Remedy{Help::look_on_other_computers} : Remedy{};
 }
 
 std::string RosLink::way() const {

@@ -34,7 +34,6 @@ class RosLink : public TrackerLink {
   void wait(std::chrono::microseconds timeout) override { participant_->wait(timeout); }
   std::vector<Sighting> take() override { return sightings_.take(); }
   std::string why_silent() const override;
-  Remedy remedy() const override;
   std::vector<std::string> bodies() const override { return stream_.bodies(); }
   const std::string& body() const override { return stream_.body(); }
   std::string way() const override;

@@ -33,7 +33,7 @@ int connect_to(const std::filesystem::path& path) {
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     const Error why =
-        system_error("no virtual cameras at '" + text + "'", errno, {Help::use_simulated_robot});
+        system_error("no virtual cameras at '" + text + "'", errno, {}, SocketProblem::not_served);
     if (fd >= 0) close(fd);
     throw Error(why);
   }
@@ -60,8 +60,8 @@ std::vector<recording::TruthSample> SocketSource::poll() {
   while (pending_.size() < kMostPending && (count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
     pending_.append(bytes.data(), static_cast<std::size_t>(count));
   if (count == 0)
-    throw Error("the simulator's cameras at '" + path_.string() + "' have disconnected",
-                {Help::check_simulator_runs});
+    throw Error("the simulator's cameras at '" + path_.string() +
+                "' have disconnected: is it still running?");
 
   std::vector<recording::TruthSample> samples;
   std::size_t start = 0;

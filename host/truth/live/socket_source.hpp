@@ -7,11 +7,13 @@
 
 namespace astro::truth {
 
+enum class SocketProblem { not_served };
+
 /// The virtual cameras of a simulator in another process (host/simulation/server/truth_server.hpp has the
 /// format).
 class SocketSource : public Source {
  public:
-  /// Throws astro::Error with Help::use_simulated_robot if nobody serves there.
+  /// Throws astro::Error with SocketProblem::not_served if nobody serves there.
   explicit SocketSource(const std::filesystem::path& path);
   ~SocketSource() override;
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/truth/live/sighting.hpp"
 
 namespace astro::truth {
@@ -28,8 +28,6 @@ class TrackerLink {
 
   /// Why no pose comes, as far as can be known: a clause.
   virtual std::string why_silent() const = 0;
-  /// What would help against that, if anything can be said.
-  virtual Remedy remedy() const { return {}; }
   /// The bodies of which poses come. With none named in the address, more than one is ambiguous.
   virtual std::vector<std::string> bodies() const = 0;
   virtual const std::string& body() const = 0;

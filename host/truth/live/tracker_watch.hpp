@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/truth/live/sighting.hpp"
 #include "host/truth/live/up_axis_check.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/truth/source/pose3.hpp"
 
 namespace astro::truth {

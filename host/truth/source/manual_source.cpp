@@ -66,7 +66,7 @@ class Form {
         return Outcome::entered;
       }
       question = {".\n" + prompt,
-                  {"  '" + answer + "' is not a number in a known unit", {Help::write_decimal_point}}};
+                  {"  '" + answer + "' is not a number in a known unit; write it with a decimal point"}};
     }
   }
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "host/base/remedy.hpp"
+#include "host/base/error.hpp"
 #include "host/truth/source/reading.hpp"
 #include "host/truth/source/source.hpp"
 

@@ -107,7 +107,7 @@ TEST(WallExperiment, DoesNotCountAWayOnWhichTheRobotWasTurned) {
   WallDesk desk(robot_before_a_wall(6));
   WallHooks hooks = desk.hooks();
   std::vector<std::string> notices;
-  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark.fact); };
+  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark.sentence); };
   bool turned = false;
   hooks.read_gap = [&](double) {
     // Somebody stumbles over the robot while the ruler is read.
@@ -204,7 +204,7 @@ TEST(WallExperiment, AsksForAnotherReadingIfTwoContradictEachOtherAndLeavesTheWr
   WallHooks hooks = desk.hooks();
   int asked = 0;
   std::vector<std::string> notices;
-  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark.fact); };
+  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark.sentence); };
   hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() + (asked++ == 0 ? 0.025 : 0)); };
   hooks.read_again = confirm;
   const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);

@@ -21,7 +21,7 @@ class Person {
     return answer;
   }
   std::string operator()(const truth::Question& question) {
-    return (*this)(question.occasion.fact + question.text);
+    return (*this)(question.occasion.sentence + question.text);
   }
 
   std::vector<std::string> asked;

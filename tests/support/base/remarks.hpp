@@ -8,51 +8,45 @@
 
 #include "host/base/error.hpp"
 
-/// What a library tells: a fact, and the kind of help. Which words the commands have for that kind is a matter
-/// of theirs (tests/host/programs/remedies_test.cpp).
+/// What a library tells: the kind, and the names and values in its sentence. How the sentence reads is tested where a command
+/// prints it.
 namespace astro {
 
 inline void PrintTo(const Remark& remark, std::ostream* out) {
-  *out << '"' << remark.fact << "\", help " << static_cast<int>(remark.remedy.help) << " ("
-       << remark.remedy.value << ")";
+  *out << '"' << remark.sentence << '"';
+  for (const std::string& value : remark.values) *out << " [" << value << "]";
 }
 
 }  // namespace astro
 
 namespace astro::support {
 
-inline Remark remark_of(const Error& error) { return {error.what(), error.remedy()}; }
-
-/// What the astro::Error that `work` throws tells; no fact if it throws none.
+/// What the astro::Error that `work` throws tells; no sentence if it throws none.
 template <class Work>
 Remark told_by(Work work) {
   try {
     work();
   } catch (const Error& error) {
-    return remark_of(error);
+    return error.remark();
   }
   return {};
 }
 
-/// Of a Remark: its fact matches, and this would help.
-template <class Matcher>
-auto Tells(Matcher fact, Help help) {
-  return testing::AllOf(
-      testing::Field("fact", &Remark::fact, fact),
-      testing::Field("remedy", &Remark::remedy, testing::Field("help", &Remedy::help, help)));
+/// Of a Remark: it is of this kind.
+inline auto Tells(Kind kind) { return testing::Field("kind", &Remark::kind, kind); }
+
+/// The same with these values, in their order: strings or matchers of strings.
+template <class... Values>
+auto Tells(Kind kind, Values... values) {
+  return testing::AllOf(Tells(kind),
+                        testing::Field("values", &Remark::values, testing::ElementsAre(values...)));
 }
 
-/// The same with the value that the remedy names.
-template <class Matcher>
-auto Tells(Matcher fact, Help help, const std::string& value) {
-  return testing::AllOf(Tells(fact, help),
-                        testing::Field(&Remark::remedy, testing::Field("value", &Remedy::value, value)));
-}
-
-/// As testing::ThrowsMessage, with the kind of help.
-template <class Matcher, class... Helps>
-auto ThrowsTelling(Matcher fact, Helps... help) {
-  return testing::Throws<Error>(testing::ResultOf(remark_of, Tells(fact, help...)));
+/// Of something that is called: it throws an astro::Error of this kind, with these values if any are given.
+template <class... Values>
+auto ThrowsTelling(Kind kind, Values... values) {
+  return testing::Throws<Error>(
+      testing::ResultOf([](const Error& error) { return error.remark(); }, Tells(kind, values...)));
 }
 
 }  // namespace astro::support

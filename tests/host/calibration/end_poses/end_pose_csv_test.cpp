@@ -19,7 +19,7 @@ Remark told(std::string_view text) {
   return support::told_by([&] { (void)read_end_poses(text, "cw.csv"); });
 }
 
-std::string refusal(std::string_view text) { return told(text).fact; }
+std::string refusal(std::string_view text) { return told(text).sentence; }
 
 TEST(EndPoseCsv, ReadsTheFormOfTheThesisTables) {
   const auto runs = read_end_poses(

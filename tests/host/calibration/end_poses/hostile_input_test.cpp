@@ -32,7 +32,7 @@ Remark told(const std::vector<EndPose>& cw, const std::vector<EndPose>& ccw, dou
 std::string error_for(const std::vector<EndPose>& cw, const std::vector<EndPose>& ccw,
                       double side_m = kSide_m, const WheelFactors& loaded = kNominal,
                       const Options& options = {}) {
-  return told(cw, ccw, side_m, loaded, options).fact;
+  return told(cw, ccw, side_m, loaded, options).sentence;
 }
 
 TEST(HostileInput, NoRunsAtAll) {

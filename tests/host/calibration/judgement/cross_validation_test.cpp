@@ -238,7 +238,8 @@ TEST(CrossValidation, NamesWhatCannotBeHeldOut) {
   const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
   EXPECT_EQ(judged.verdict, Verdict::unknown);
   ASSERT_EQ(judged.not_judged.size(), 2u);
-  EXPECT_EQ(judged.not_judged[0].fact.rfind("without the line, ", 0), 0u) << judged.not_judged[0].fact;
+  EXPECT_EQ(judged.not_judged[0].sentence.rfind("without the line, ", 0), 0u)
+      << judged.not_judged[0].sentence;
 }
 
 TEST(CrossValidation, IsNotBetterOnWhatWasNotHeldOut) {
@@ -273,7 +274,7 @@ TEST(CrossValidation, HoldsOutMeasuredLines) {
   EXPECT_NE(judged_by_lines({3.060, 3.000, 3.001}).verdict, Verdict::better) << "one mistyped";
   const CrossValidation single = judged_by_lines({3.06});
   EXPECT_EQ(single.verdict, Verdict::unknown);
-  EXPECT_EQ(single.not_judged.at(0).fact, "the scale comes from a single line");
+  EXPECT_EQ(single.not_judged.at(0).sentence, "the scale comes from a single line");
 }
 
 }  // namespace

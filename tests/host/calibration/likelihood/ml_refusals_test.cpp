@@ -24,7 +24,7 @@ Remark told(const std::vector<Trajectory>& runs) {
   return support::told_by([&] { estimate_ml(runs, astro_drive().loaded); });
 }
 
-std::string refusal(const std::vector<Trajectory>& runs) { return told(runs).fact; }
+std::string refusal(const std::vector<Trajectory>& runs) { return told(runs).sentence; }
 
 std::vector<Trajectory> one(const simulation::study::Course& course,
                             const DriveModel& model = astro_drive()) {

@@ -27,7 +27,7 @@ motor::RollVerdict rolled(double counts_per_motor_rev, double way_m, WiringOptio
   const auto facts = motor::facts_of(robot::RemoteParameters::fetch(desk.client));
   options.roll = true;
   const auto verdict = roll(desk.client, facts, options);
-  std::printf("%s\n", verdict.finding.fact.c_str());
+  std::printf("%s\n", verdict.finding.sentence.c_str());
   return verdict;
 }
 

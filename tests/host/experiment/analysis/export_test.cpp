@@ -136,7 +136,7 @@ TEST(Export, NamesWhatOneWheelbaseCannotSayOfARobotWithTwo) {
   EXPECT_NEAR(ros.wheel_separation_multiplier * ros.wheel_separation_m, 0.28861105, 1e-12) << "that of spins";
   const Remark note = single_wheelbase(file, ros).value();
   EXPECT_THAT(note, support::Tells(HasSubstr("e = 0.03"), Help::set_separation_of_arcs));
-  EXPECT_THAT(note.fact, HasSubstr("up to 3.0 % too far"));
+  EXPECT_THAT(note.sentence, HasSubstr("up to 3.0 % too far"));
   EXPECT_NEAR(std::stod(note.remedy.value), 1.03 * ros.wheel_separation_multiplier, 1e-5);
   std::istringstream lines(ros2_yaml(file, ros, "base"));
   std::string comments;
@@ -146,7 +146,7 @@ TEST(Export, NamesWhatOneWheelbaseCannotSayOfARobotWithTwo) {
   }
   EXPECT_THAT(comments, HasSubstr("knows one wheelbase"));
   file.parameters["e"] = -0.02;
-  EXPECT_THAT(single_wheelbase(file, ros)->fact, HasSubstr("up to 2.0 % too little"));
+  EXPECT_THAT(single_wheelbase(file, ros)->sentence, HasSubstr("up to 2.0 % too little"));
 }
 
 TEST(Export, WritesRosNumbersAsFloatsToTheLastBit) {

@@ -41,7 +41,7 @@ Plan small_plan(int runs, int rounds = 1) {
 class MlExperiment : public testing::Test {
  protected:
   MlExperiment() : config_(scaled_robot()), desk_(config_) {
-    hooks_.run.notice = [this](const Remark& remark) { notices_ += remark.fact + '\n'; };
+    hooks_.run.notice = [this](const Remark& remark) { notices_ += remark.sentence + '\n'; };
     hooks_.run_started = [this](const RunSpec& spec, int, int) { driven_.push_back(spec.title()); };
   }
 
@@ -175,8 +175,8 @@ TEST_F(MlExperiment, DrivesUntilThePrecisionIsReachedAndNoFurther) {
 
 TEST_F(MlExperiment, ReadsEachRecordingOnceHoweverManyPairsFollow) {
   hooks_.run.notice = [this](const Remark& remark) {
-    notices_ += remark.fact + '\n';
-    if (!remark.fact.starts_with("before: 2 + 2 squares give")) return;
+    notices_ += remark.sentence + '\n';
+    if (!remark.sentence.starts_with("before: 2 + 2 squares give")) return;
     // They were read for this figure. Whoever reads them again finds no recording.
     for (const char* name :
          {"square-cw-1.mcap", "square-ccw-1.mcap", "square-cw-2.mcap", "square-ccw-2.mcap"})
@@ -189,7 +189,7 @@ TEST_F(MlExperiment, ReadsEachRecordingOnceHoweverManyPairsFollow) {
 
 TEST_F(MlExperiment, ReadsAgainIfARecordingWasTakenAwayToBeDrivenAgain) {
   hooks_.run.notice = [this](const Remark& remark) {
-    if (remark.fact.starts_with("before: 2 + 2 squares give"))
+    if (remark.sentence.starts_with("before: 2 + 2 squares give"))
       fs::remove(folder_.path() / "before" / "square-cw-1.mcap");
   };
   const Results results = run(until_plan(1e-5, 3));

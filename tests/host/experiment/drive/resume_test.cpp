@@ -137,7 +137,7 @@ std::vector<std::string> driven_over_a_line_that_breaks(const fs::path& folder, 
   hooks.run_started = [&](const RunSpec& spec, int, int) { events.push_back("drives " + spec.title()); };
   hooks.run.segment_done = [&](std::uint16_t) { breaks = events.size() > 1; };
   hooks.run.interrupted = [&] { return breaks && interrupted; };
-  hooks.run.notice = [&](const Remark& remark) { events.push_back(remark.fact); };
+  hooks.run.notice = [&](const Remark& remark) { events.push_back(remark.sentence); };
   hooks.put_back = [&](const RunSpec& spec) {
     events.push_back("asks about " + spec.title());
     const auto two_seconds_later = desk.robot->board().world_us() + 2'000'000;
@@ -202,7 +202,7 @@ TEST_F(Resume, AfterALostTruthItSaysThatTheRobotStandsOnItsWay) {
     EXPECT_THAT([&] { run_experiment(desk_.client, truth, small_plan(), folder_.path(), hooks); },
                 testing::ThrowsMessage<Error>(HasSubstr("the tracker is gone")));
     const bool told = std::ranges::any_of(notices, [](const Remark& notice) {
-      return notice.fact == "before: square cw 1 was broken off, and the robot stands on its way" &&
+      return notice.sentence == "before: square cw 1 was broken off, and the robot stands on its way" &&
              notice.remedy.help == Help::put_back_and_resume;
     });
     EXPECT_EQ(told, on_the_way);
@@ -484,7 +484,7 @@ class HarmedRecording : public Resume {
     const auto before = factors();
     ExperimentHooks hooks;
     hooks.run_started = [](const RunSpec& spec, int, int) { ADD_FAILURE() << "drives " << spec.title(); };
-    hooks.uploaded = [](const Remark& remark) { ADD_FAILURE() << remark.fact; };
+    hooks.uploaded = [](const Remark& remark) { ADD_FAILURE() << remark.sentence; };
     for (int session = 0; session < 2; ++session)
       EXPECT_THAT([&] { run(small_plan(), hooks); }, support::ThrowsTelling(HasSubstr(named), help));
     EXPECT_EQ(factors(), before);

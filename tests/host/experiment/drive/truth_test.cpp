@@ -139,7 +139,7 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
   std::vector<std::string> asked;
   std::vector<truth::AnswerKind> answers;
   truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
-    asked.push_back(question.occasion.fact + question.text);
+    asked.push_back(question.occasion.sentence + question.text);
     answers.push_back(question.answer);
     std::ofstream(file) << texts.at(asked.size());
     return "";
@@ -183,7 +183,7 @@ TEST_F(FileTruth, RefusesTimesThatAreNoneAndAnEndThatIsHardlyThatOfTheRun) {
   std::ofstream(file) << texts[0];
   std::vector<std::string> asked;
   truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
-    asked.push_back(question.occasion.fact + question.text);
+    asked.push_back(question.occasion.sentence + question.text);
     std::ofstream(file) << texts.at(asked.size());
     return "";
   });
@@ -236,7 +236,7 @@ TEST_F(FileTruth, ThatIsMissingIsToldWithItsFolderOrItsName) {
   const std::filesystem::path folder = folder_.path() / "truth", file = folder / "before-line-1.csv";
   std::vector<std::string> asked;
   truth::FileSource source(folder, [&](const truth::Question& question) -> std::string {
-    asked.push_back(question.occasion.fact + question.text);
+    asked.push_back(question.occasion.sentence + question.text);
     if (asked.size() == 2) std::filesystem::create_directory(folder);
     if (asked.size() == 3) std::ofstream(file) << "x_m,y_m\n0,0\n0.5,0\n";
     return "";

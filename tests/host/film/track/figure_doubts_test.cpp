@@ -97,7 +97,7 @@ TEST(FigureDoubts, HaveNothingAgainstFiguresThatARulerShows) {
     *rough.robot_height_m += 4e-3;
     rough.tapes[0].length_m -= 4e-3;
     const auto doubt = film.doubt(rough);
-    EXPECT_FALSE(doubt.has_value()) << doubt->remark.fact;
+    EXPECT_FALSE(doubt.has_value()) << doubt->remark.sentence;
   }
 }
 
@@ -109,8 +109,8 @@ TEST(FigureDoubts, NameTheFigureThatAllOthersContradict) {
     mistake.make(figures);
     const auto doubt = film.doubt(figures);
     ASSERT_TRUE(doubt.has_value()) << mistake.what;
-    EXPECT_THAT(doubt->remark.fact, HasSubstr(mistake.sentence)) << mistake.what;
-    EXPECT_EQ(doubt->gross, mistake.gross) << mistake.what << ": " << doubt->remark.fact;
+    EXPECT_THAT(doubt->remark.sentence, HasSubstr(mistake.sentence)) << mistake.what;
+    EXPECT_EQ(doubt->gross, mistake.gross) << mistake.what << ": " << doubt->remark.sentence;
   }
 }
 
@@ -126,13 +126,13 @@ TEST(FigureDoubts, KnowATapeByThePrintedSizeOfTheTagsButRefuseNothingForThat) {
   figures.tapes = {{1, 4, film.true_figures().tapes[0].length_m / 10}};
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("the distance from floor tag 1 to 4 is"));
+  EXPECT_THAT(doubt->remark.sentence, HasSubstr("the distance from floor tag 1 to 4 is"));
   EXPECT_FALSE(doubt->gross) << "nothing that was measured contradicts it";
   figures.robot_height_m = film.true_figures().robot_height_m;
   figures.tapes[0].length_m *= 100;
   const auto too_long = film.doubt(figures);
   ASSERT_TRUE(too_long.has_value());
-  EXPECT_THAT(too_long->remark.fact, HasSubstr("the distance from floor tag 1 to 4 is"));
+  EXPECT_THAT(too_long->remark.sentence, HasSubstr("the distance from floor tag 1 to 4 is"));
   EXPECT_TRUE(too_long->gross) << "the robot's tag is not found with it";
 }
 
@@ -155,7 +155,7 @@ TEST(FigureDoubts, TellARobotThatIsHigherThanUsualFromAWrongSide) {
     if (!with_tape) figures.tapes.clear();
     const auto doubt = film.doubt(figures);
     ASSERT_TRUE(doubt.has_value());
-    EXPECT_THAT(doubt->remark.fact, HasSubstr("the height of the robot's tag is"));
+    EXPECT_THAT(doubt->remark.sentence, HasSubstr("the height of the robot's tag is"));
     EXPECT_EQ(doubt->remark.remedy.help, Help::give_tag_height);
     EXPECT_FALSE(doubt->gross);
     EXPECT_EQ(film.growth(doubt->figures), 1) << "the scale is as certain as without the usual height";
@@ -173,7 +173,7 @@ TEST(FigureDoubts, TellSheetsOfAnotherSizeFromAWrongTape) {
   figures.robot_side_m.reset();
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
-  EXPECT_EQ(doubt->remark.fact, "");
+  EXPECT_EQ(doubt->remark.sentence, "");
   EXPECT_FALSE(doubt->gross);
   const auto sides = unusual_sides(figures, film.fit(doubt->figures).scene);
   ASSERT_EQ(sides.size(), 2U);
@@ -200,7 +200,7 @@ TEST(FigureDoubts, NameATapeThatIsTooLongAlthoughAPrinterCouldScale) {
   figures.tapes[0].length_m *= 1.06;
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
-  EXPECT_THAT(doubt->remark.fact,
+  EXPECT_THAT(doubt->remark.sentence,
               HasSubstr("all else that was measured, the distance from floor tag 1 to 4"));
   EXPECT_TRUE(doubt->gross);
 }
@@ -225,8 +225,8 @@ TEST(FigureDoubts, TellAPrinterThatScalesFromAWrongTape) {
   *figures.robot_side_m /= 0.97;
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("all tags are printed at 97."));
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("or"));
+  EXPECT_THAT(doubt->remark.sentence, HasSubstr("all tags are printed at 97."));
+  EXPECT_THAT(doubt->remark.sentence, HasSubstr("or"));
   EXPECT_FALSE(doubt->gross);
 }
 
@@ -240,7 +240,7 @@ TEST(FigureDoubts, LetTheErrorOfTheScaleGrowForSeveralSmallMistakes) {
   figures.tapes[3].length_m -= 0.02;
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("at least two of what was measured are wrong"));
+  EXPECT_THAT(doubt->remark.sentence, HasSubstr("at least two of what was measured are wrong"));
   EXPECT_FALSE(doubt->gross);
   EXPECT_GT(film.growth(doubt->figures), 3.5);
 }
@@ -254,9 +254,9 @@ TEST(FigureDoubts, SayThatSeveralMayBeWrongIfTheFilmCannotTell) {
   figures.tapes = {{1, 4, 1.1 * film.true_figures().tapes[0].length_m}};
   const auto doubt = film.doubt(figures);
   ASSERT_TRUE(doubt.has_value());
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("contradicts itself"));
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("the side of the floor tags is"));
-  EXPECT_THAT(doubt->remark.fact, HasSubstr("or the distance from floor tag 1 to 4 is"));
+  EXPECT_THAT(doubt->remark.sentence, HasSubstr("contradicts itself"));
+  EXPECT_THAT(doubt->remark.sentence, HasSubstr("the side of the floor tags is"));
+  EXPECT_THAT(doubt->remark.sentence, HasSubstr("or the distance from floor tag 1 to 4 is"));
   EXPECT_TRUE(doubt->gross);
 }
 

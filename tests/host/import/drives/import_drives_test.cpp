@@ -257,7 +257,7 @@ TEST_F(Import, SaysThatSizesGivenBesideARecordingOfOursAreNotUsed) {
   const auto remarks = [&](const ImportChoices& given) {
     const ImportedDrives drives = import_drives(own, given);
     std::string all;
-    for (const Remark& remark : drives.reports[0].remarks) all += remark.fact + '\n';
+    for (const Remark& remark : drives.reports[0].remarks) all += remark.sentence + '\n';
     return all;
   };
   EXPECT_THAT(remarks(choices()), testing::Not(HasSubstr("not used"))) << "they are the same";

@@ -80,7 +80,7 @@ TEST_F(JointWheels, PositionsOfRecognisedJointsAreRead) {
   EXPECT_EQ(track.clock, WheelClock::stamp);
   EXPECT_THAT(track.samples, ElementsAre(WheelSample{10, 2, 1}, WheelSample{20, 5, 3}));
   ASSERT_FALSE(track.remarks.empty());
-  EXPECT_EQ(track.remarks[0].fact, "the wheels are the joints left_wheel and right_wheel");
+  EXPECT_EQ(track.remarks[0].sentence, "the wheels are the joints left_wheel and right_wheel");
 }
 
 TEST_F(JointWheels, VelocitiesAreIntegratedWhereThereAreNoPositions) {
@@ -128,7 +128,7 @@ TEST_F(JointWheels, MessagesBeforeTheFirstStampAreLeftOut) {
                                                 {late, {"l", "r"}, {1, 2}, {}, {}},
                                                 {late + 1, {"l", "r"}, {2, 3}, {}, {}}}}}));
   EXPECT_THAT(track.samples, ElementsAre(WheelSample{late, 1, 2}, WheelSample{late + 1, 2, 3}));
-  EXPECT_EQ(track.remarks.back().fact, "messages of /joint_states: 1 have no stamp and were left out");
+  EXPECT_EQ(track.remarks.back().sentence, "messages of /joint_states: 1 have no stamp and were left out");
 }
 
 TEST_F(JointWheels, WhatIsUnclearIsRefusedWithTheChoices) {

@@ -68,7 +68,7 @@ TEST_F(PoseTopics, ATopicOfATrackerIsRecognised) {
       bag({{"/tf", pose(1, "map", "odom", 1)}, {"/vicon/tf", pose(2, "world", "robot", 2)}});
   const PoseTopic topic = poses_in_bag(path);
   EXPECT_THAT(xs(topic), ElementsAre(2));
-  EXPECT_EQ(topic.remarks.at(0).fact,
+  EXPECT_EQ(topic.remarks.at(0).sentence,
             "the poses are those of /vicon/tf world robot (tf2_msgs/msg/TFMessage)");
 }
 
@@ -98,7 +98,7 @@ TEST_F(PoseTopics, ARobotsOwnEstimatesAreNeverTruthUnlessTheyAreNamed) {
   for (const PoseSelection& named : {PoseSelection{"/tf", "", ""}, PoseSelection{"", "odom", "base_link"}}) {
     const PoseTopic topic = poses_in_bag(transform, named);
     EXPECT_THAT(xs(topic), ElementsAre(1));
-    EXPECT_THAT(topic.remarks.at(0).fact, HasSubstr("may be an estimate of the robot itself"));
+    EXPECT_THAT(topic.remarks.at(0).sentence, HasSubstr("may be an estimate of the robot itself"));
   }
 }
 
@@ -132,15 +132,15 @@ TEST_F(PoseTopics, TimesAreStampsOrThoseOfTheRecorder) {
   const PoseTopic other = poses_in_bag(bag(
       {{"/mocap", pose(kSecond, "a", "b", 1)}, {"/mocap", pose(5 * kSecond, "a", "b", 2)}}, 9000 * kSecond));
   ASSERT_EQ(other.remarks.size(), 2U);
-  EXPECT_THAT(other.remarks[0].fact, HasSubstr("another clock than the recorder's"));
-  EXPECT_THAT(other.remarks[1].fact, HasSubstr("delays that differ by 3 s"));
+  EXPECT_THAT(other.remarks[0].sentence, HasSubstr("another clock than the recorder's"));
+  EXPECT_THAT(other.remarks[1].sentence, HasSubstr("delays that differ by 3 s"));
 }
 
 TEST_F(PoseTopics, StampsAheadOfTheRecorderAreSaidToBeAfterIt) {
   const PoseTopic ahead = poses_in_bag(
       bag({{"/mocap", pose(9000 * kSecond, "a", "b", 1)}, {"/mocap", pose(9001 * kSecond, "a", "b", 2)}}));
   ASSERT_EQ(ahead.remarks.size(), 1U);
-  EXPECT_THAT(ahead.remarks[0].fact, HasSubstr("they are 8999 s after it"));
+  EXPECT_THAT(ahead.remarks[0].sentence, HasSubstr("they are 8999 s after it"));
 }
 
 // A node in simulated time publishes zeros until it hears the clock.
@@ -150,7 +150,7 @@ TEST_F(PoseTopics, PosesBeforeTheFirstStampAreLeftOut) {
                                            {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));
   EXPECT_THAT(xs(late), ElementsAre(2, 3));
   ASSERT_EQ(late.remarks.size(), 1U);
-  EXPECT_EQ(late.remarks[0].fact, "poses of /mocap: 1 have no stamp and were left out");
+  EXPECT_EQ(late.remarks[0].sentence, "poses of /mocap: 1 have no stamp and were left out");
   const PoseTopic once = poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)},
                                            {"/mocap", pose(0, "a", "b", 2)},
                                            {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));

@@ -170,7 +170,7 @@ TEST(WheelCsv, RowsWithEmptyCellsAndRepeatedTimesAreCounted) {
   const WheelTrack track = wheels("time_s,left_counts,right_counts\n0,0,0\n1,,1\n2,2,2\n2,3,3\n3,4,4\n");
   EXPECT_EQ(track.samples.size(), 3U);
   ASSERT_EQ(track.remarks.size(), 2U);
-  EXPECT_THAT(track.remarks[0].fact, HasSubstr("1 rows with empty cells"));
+  EXPECT_THAT(track.remarks[0].sentence, HasSubstr("1 rows with empty cells"));
 }
 
 TEST(WheelCsv, HugeTablesStayInBounds) {

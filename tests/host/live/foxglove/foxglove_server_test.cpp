@@ -277,7 +277,7 @@ TEST_F(FoxgloveServerOnLoopback, AWatcherThatReadsNothingGivesItsPlaceToOneThatW
     return message && !message->is_text;
   }));
   EXPECT_TRUE(std::any_of(notices_.begin(), notices_.end(), [](const Remark& each) {
-    return each.fact.find("did not read what it watched") != std::string::npos;
+    return each.sentence.find("did not read what it watched") != std::string::npos;
   }));
 }
 

@@ -18,7 +18,7 @@ using support::Viewer;
 RequestSink failing_once(const std::string& text, std::atomic<int>& failures) {
   return [text, &failures](const Request& request) {
     const auto* notice = std::get_if<NoticeArrived>(&request);
-    if (notice == nullptr || notice->remark.fact.find(text) == std::string::npos || failures > 0) return;
+    if (notice == nullptr || notice->remark.sentence.find(text) == std::string::npos || failures > 0) return;
     ++failures;
     throw std::bad_alloc();
   };

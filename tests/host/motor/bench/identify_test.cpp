@@ -96,7 +96,7 @@ Remark refusal(const sim::Config& config, const Bounds& bounds) {
   const protocol::Status status = desk.client.request(protocol::GetStatus{});
   EXPECT_EQ(status.mode, protocol::Mode::disarmed);
   EXPECT_EQ(status.latched_faults, 0U) << "stopped before the firmware has to";
-  std::printf("%s\n", told.fact.c_str());
+  std::printf("%s\n", told.sentence.c_str());
   return told;
 }
 

@@ -67,7 +67,7 @@ TEST_P(SingleFault, IsNamedAndWhatIsOfferedMakesTheRobotDriveStraight) {
   support::Desk desk(config);
   const WiringVerdict verdict = check(desk);
   ASSERT_EQ(verdict.findings.size(), 1U);
-  std::printf("%s\n", verdict.findings[0].remark.fact.c_str());
+  std::printf("%s\n", verdict.findings[0].remark.sentence.c_str());
   EXPECT_EQ(verdict.findings[0].fault, GetParam().fault);
   EXPECT_EQ(verdict.needs_hands, !GetParam().by_parameters);
   EXPECT_EQ(verdict.parameters.size(), GetParam().by_parameters ? 1U : 0U);
@@ -162,7 +162,7 @@ TEST(Roll, CountsPerRevolutionComeFromBeingPushedAlongATape) {
       roll.counts[at(side)] = static_cast<double>(end.counts[at(side)] - start.counts[at(side)]);
     roll.distance_m = board.truth().x_m;
     const auto verdict = judge_roll(roll);
-    std::printf("%s\n", verdict.finding.fact.c_str());
+    std::printf("%s\n", verdict.finding.sentence.c_str());
     EXPECT_EQ(verdict.parameters.at("counts_per_motor_rev"), counts);
     EXPECT_EQ(desk.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
   }

@@ -26,7 +26,7 @@ Remark told(const DesignTask& wanted) {
   return support::told_by([&] { design_gains(wanted); });
 }
 
-std::string refusal(const DesignTask& wanted) { return told(wanted).fact; }
+std::string refusal(const DesignTask& wanted) { return told(wanted).sentence; }
 
 TEST(Design, MeetsTheBandwidthAndLeavesSixtyDegrees) {
   for (const double observer_radps : {60.0, 100.0, 200.0, 400.0}) {

@@ -32,7 +32,7 @@ TEST(Roll, AnotherDecodingIsAPowerOfTwo) {
       const RollVerdict verdict = judge_roll(roll);
       EXPECT_FALSE(verdict.agrees);
       EXPECT_THAT(verdict.parameters, ElementsAre(Pair("counts_per_motor_rev", 64 * factor)));
-      EXPECT_THAT(verdict.finding.fact, HasSubstr("counts_per_motor_rev is"));
+      EXPECT_THAT(verdict.finding.sentence, HasSubstr("counts_per_motor_rev is"));
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(Roll, AnotherRatioIsAnotherGearIfTurnsWereCounted) {
   const RollVerdict verdict = judge_roll(ten_turns(30.0 / 43.8));
   EXPECT_THAT(verdict.parameters,
               ElementsAre(Pair("gear_denominator", 1000), Pair("gear_numerator", 30'000)));
-  EXPECT_THAT(verdict.finding.fact, HasSubstr("30.000, not 43.800"));
+  EXPECT_THAT(verdict.finding.sentence, HasSubstr("30.000, not 43.800"));
 }
 
 TEST(Roll, AnotherRatioAlongATapeIsAnotherDiameter) {
@@ -63,7 +63,7 @@ TEST(Roll, WheelsThatDisagreeChangeNothing) {
   const RollVerdict verdict = judge_roll(roll);
   EXPECT_FALSE(verdict.agrees);
   EXPECT_TRUE(verdict.parameters.empty());
-  EXPECT_THAT(verdict.finding.fact, HasSubstr("left wheel counts 0.25"));
+  EXPECT_THAT(verdict.finding.sentence, HasSubstr("left wheel counts 0.25"));
 }
 
 TEST(Roll, ATenfoldTypoInTheLengthIsNotTakenForAnotherWheel) {

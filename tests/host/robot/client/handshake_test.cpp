@@ -21,7 +21,7 @@ Remark refusal(Transport& transport) {
 }
 
 std::string why_not(Transport& transport) {
-  const std::string fact = refusal(transport).fact;
+  const std::string fact = refusal(transport).sentence;
   return fact.empty() ? "connected" : fact;
 }
 

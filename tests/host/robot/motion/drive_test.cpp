@@ -93,7 +93,7 @@ TEST_F(Drive, DoesNotBeginIfAnotherHasStoppedTheRobotSinceTheLastOne) {
 TEST_F(Drive, DoesNotTakeOverARobotThatStaysArmedForSomebodyWhoMayHaveGone) {
   link.robot.mode = Mode::idle;
   const Remark why = support::told_by([&] { DriveSession{client}; });
-  EXPECT_THAT(why.fact, HasSubstr("stands and is armed, for another program or for one that has gone"));
+  EXPECT_THAT(why.sentence, HasSubstr("stands and is armed, for another program or for one that has gone"));
   EXPECT_EQ(why.remedy.help, Help::stop_other_program);
   EXPECT_EQ(link.robot.executed[Arm::kId], 0);
 }
@@ -160,7 +160,7 @@ TEST_F(Drive, ClearsWhatAKilledProgramLeftBehindAndSaysSo) {
   link.robot.raise(Fault::link_lost);
   std::string notice;
   DriveHooks hooks;
-  hooks.notice = [&](const Remark& remark) { notice = remark.fact; };
+  hooks.notice = [&](const Remark& remark) { notice = remark.sentence; };
   DriveSession(client, hooks).run(line(1));
   EXPECT_EQ(notice, "cleared command_timeout, link_lost, which an earlier drive left behind");
 }
@@ -276,7 +276,7 @@ TEST_F(InterruptedDrive, EndsWithTheFaultThatWasLatchedOnTheWayToRest) {
 TEST_F(Drive, ThatFailsAndCannotStopTheRobotEitherSaysSoInANotice) {
   std::string notice;
   DriveHooks hooks;
-  hooks.notice = [&](const Remark& remark) { notice = remark.fact; };
+  hooks.notice = [&](const Remark& remark) { notice = remark.sentence; };
   try {
     DriveSession session(client, hooks);
     link.fate = [](bool, std::uint8_t) { return Fate::lost; };
@@ -307,7 +307,7 @@ TEST_F(Drive, SaysThatAnotherProgramStoppedTheRobot) {
     }
     return Fate::arrives;
   };
-  EXPECT_THAT(support::told_by([&] { session.run(line(1)); }).fact, HasSubstr("segment 1 was aborted"));
+  EXPECT_THAT(support::told_by([&] { session.run(line(1)); }).sentence, HasSubstr("segment 1 was aborted"));
   EXPECT_EQ(driven, 0);
 }
 

@@ -30,7 +30,7 @@ TEST(Upload, PutsTheNewSetInForceAndSaysSo) {
   EXPECT_EQ(link.robot.parameter("b").value.active, 288'600'000);
   ASSERT_EQ(report.values.size(), 4U);
   for (const auto& value : report.values) EXPECT_EQ(value.now, value.wanted);
-  EXPECT_THAT(report.remark().fact, HasSubstr("holds the new set"));
+  EXPECT_THAT(report.remark().sentence, HasSubstr("holds the new set"));
 }
 
 TEST(Upload, LeavesValuesAloneThatSomebodyElseStaged) {
@@ -113,8 +113,9 @@ Outcomes drop_at_every_frame(bool restarts) {
     }
     for (const auto& value : report.values) EXPECT_EQ(value.now, is_new ? value.wanted : value.before);
     EXPECT_EQ(link.robot.parameter("b").value.active, is_new ? 288'600'000 : 290'000'000) << "frame " << n;
-    EXPECT_THAT(report.remark().fact, HasSubstr(is_new ? "dropped on the way; the robot holds the new set"
-                                                       : "dropped on the way; the robot holds the old set"));
+    EXPECT_THAT(report.remark().sentence,
+                HasSubstr(is_new ? "dropped on the way; the robot holds the new set"
+                                 : "dropped on the way; the robot holds the old set"));
   }
 }
 

@@ -66,9 +66,9 @@ TEST(Ports, FindsRobotsAndSaysWhyTheOthersAreNone) {
   const ServedRobot robot(live.master());
   const auto found = find_robots(candidate_ports(folder.path(), folder.path()), std::chrono::seconds(3));
   ASSERT_EQ(found.size(), 3U);
-  EXPECT_THAT(found[0].reason.fact, HasSubstr("does not answer"));
-  EXPECT_THAT(found[1].reason.fact, HasSubstr("is in use by another program"));
-  ASSERT_TRUE(found[2].robot) << found[2].reason.fact;
+  EXPECT_THAT(found[0].reason.sentence, HasSubstr("does not answer"));
+  EXPECT_THAT(found[1].reason.sentence, HasSubstr("is in use by another program"));
+  ASSERT_TRUE(found[2].robot) << found[2].reason.sentence;
   EXPECT_EQ(found[2].robot->robot_name.view(), "astro");
   EXPECT_FALSE(found[0].robot || found[1].robot);
 }
@@ -85,7 +85,7 @@ TEST(Ports, AreAskedAllAtOnce) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].port.address, ports[i].address);
     EXPECT_FALSE(found[i].robot);
-    EXPECT_THAT(found[i].reason.fact, HasSubstr("does not answer"));
+    EXPECT_THAT(found[i].reason.sentence, HasSubstr("does not answer"));
   }
 }
 

@@ -33,7 +33,7 @@ Remark refusal(const std::string& address) {
 }
 
 std::string why_not(const std::string& address) {
-  const std::string fact = refusal(address).fact;
+  const std::string fact = refusal(address).sentence;
   return fact.empty() ? "opened" : fact;
 }
 

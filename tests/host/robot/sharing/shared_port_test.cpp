@@ -119,7 +119,7 @@ TEST_F(SharedPortOfTheSystem, ANameThatAProgramOfAnotherUserHoldsIsSaidAndNotBel
   std::string said;
   {
     const auto port =
-        open_shared_port(pty.path(), kDefaultBaud, [&](const Remark& remark) { said = remark.fact; });
+        open_shared_port(pty.path(), kDefaultBaud, [&](const Remark& remark) { said = remark.sentence; });
     EXPECT_THAT(said, HasSubstr("no other program can stop or watch this robot"));
   }
   for (const int end : {ready[0], ready[1], done[0], done[1]}) ::close(end);

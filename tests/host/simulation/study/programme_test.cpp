@@ -121,7 +121,7 @@ TEST(ShortestProgramme, FindsEWithCircles) {
   EXPECT_GT(found.programme.counts[kSquares] + found.programme.counts[kSpins], 0);
   EXPECT_GT(found.driving_time_s, shortest_programme(target, all, Programme{}).driving_time_s);
   const auto fact = [&](const std::vector<Kind>& kinds) {
-    return support::told_by([&] { (void)shortest_programme(target, kinds, Programme{}, 2e-3); }).fact;
+    return support::told_by([&] { (void)shortest_programme(target, kinds, Programme{}, 2e-3); }).sentence;
   };
   EXPECT_EQ(fact({kSquares, kLines}), "runs without circles hardly show e");
   EXPECT_EQ(fact({kLines, kCircles}), "runs without squares and spins hardly tell e from the wheelbase");
@@ -215,7 +215,8 @@ TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
               Tells("lines never turn, so they do not determine the wheelbase", Help::add_turns));
   EXPECT_THAT(told(1e-7, {kSquares}),
               Tells("a precision this fine takes more than 1000 runs", Help::drive_longer_runs_or_ask_less));
-  EXPECT_EQ(told(0, {kSquares}).fact, "the precision wanted of E_d is 0, and has to be a positive number");
+  EXPECT_EQ(told(0, {kSquares}).sentence,
+            "the precision wanted of E_d is 0, and has to be a positive number");
 }
 
 }  // namespace

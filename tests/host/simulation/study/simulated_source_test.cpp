@@ -132,15 +132,15 @@ TEST(SimulatedSource, RefusesWhatTheRobotCannotDriveOrRecord) {
                                              Help::keep_count_rate_or_use_kinematic));
   setup = small_setup();
   setup.side_m = 0.05;
-  EXPECT_EQ(refusal(setup).fact, "a square of side 0.05 m cannot be driven: 0.2 m to 100 m are possible");
+  EXPECT_EQ(refusal(setup).sentence, "a square of side 0.05 m cannot be driven: 0.2 m to 100 m are possible");
   setup = small_setup();
   setup.windup_rad = 0.006;
   EXPECT_EQ(
-      refusal(setup).fact,
+      refusal(setup).sentence,
       "the simulated robot's tyres do not wind up in spins: only the robot of the kinematic model does");
   setup = small_setup();
   setup.trials = 0;
-  EXPECT_EQ(refusal(setup).fact, "the number of trials is 0: it has to be 1 to 10 million");
+  EXPECT_EQ(refusal(setup).sentence, "the number of trials is 0: it has to be 1 to 10 million");
   setup = small_setup();
   setup.model = simulation::study::Model::kinematic;
   EXPECT_THAT(refusal(setup),

@@ -192,7 +192,7 @@ TEST(MotiveCsv, AFileThatASpreadsheetSavedHasTimesThatDisagree) {
   const BodyTrack track = read_motive(text_of_file(path), path);
   EXPECT_EQ(track.samples.size(), 2U);
   ASSERT_EQ(track.facts.remarks.size(), 1U);
-  EXPECT_EQ(track.facts.remarks[0].fact,
+  EXPECT_EQ(track.facts.remarks[0].sentence,
             "frame numbers and the column of times differ by up to 496 ms; the frame numbers are used");
 }
 

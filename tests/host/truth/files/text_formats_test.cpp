@@ -131,7 +131,8 @@ TEST(Tum, EurocHasNanosecondsAndTheScalarFirst) {
 TEST(Tum, RepeatedTimesAreLeftOutAndSaid) {
   const BodyTrack track = read_track("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n", "t.txt");
   EXPECT_EQ(track.samples.size(), 2U);
-  EXPECT_EQ(track.facts.remarks.at(0).fact, "rows left out because they have the time of the row before: 1");
+  EXPECT_EQ(track.facts.remarks.at(0).sentence,
+            "rows left out because they have the time of the row before: 1");
   EXPECT_EQ(sentence_of("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), "file, line 2: the time does not increase");
 }
 
@@ -164,7 +165,7 @@ TEST(PlainCsv, NamesOfOtherProgramsAreUnderstood) {
   EXPECT_EQ(plot.facts.rotation_kind, RotationKind::quaternion);
   EXPECT_EQ(plot.samples.at(0).pose, (Pose3{1, 2, 3, 0, 0, 1, 0}));
   ASSERT_EQ(plot.facts.remarks.size(), 2U);
-  EXPECT_EQ(plot.facts.remarks[0].fact, "the unit of length is not stated: metres are assumed");
+  EXPECT_EQ(plot.facts.remarks[0].sentence, "the unit of length is not stated: metres are assumed");
   const BodyTrack german = read_track("stamp;x (cm);y (cm)\n1700000000123456789;1,5;2\n", "p.csv");
   EXPECT_EQ(german.samples.at(0).time_ns, 1'700'000'000'123'456'789);
   EXPECT_DOUBLE_EQ(german.samples[0].pose.x_m, 0.015);

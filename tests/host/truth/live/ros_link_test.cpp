@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "host/base/error.hpp"
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/formats/cdr/codec.hpp"
 #include "host/formats/cdr/type_description.hpp"
 #include "host/formats/messages/geometry.hpp"

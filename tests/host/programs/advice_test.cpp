@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "host/commands/base/remedies.hpp"
+#include "host/commands/base/advice.hpp"
+#include "host/console/program.hpp"
+#include "host/programs/astrolabe/all_commands.hpp"
 #include "tests/support/programs/program.hpp"
 
-/// What a remedy tells a person to do can be done: its commands and options exist.
+/// What a person is advised to do can be done: the commands and options exist.
 namespace astro {
 namespace {
 
@@ -22,11 +24,14 @@ std::vector<std::string> found(const std::string& text, const std::string& patte
   return words;
 }
 
-std::vector<std::string> all_remedies() {
-  std::vector<std::string> sentences;
-  for (std::size_t help = 1; help < kHelps; ++help)
-    sentences.push_back(commands::in_words(Remedy{static_cast<Help>(help), "umbmark"}));
-  return sentences;
+/// What every command advises, behind an empty sentence.
+std::vector<std::string> all_words() {
+  console::Program program("astrolabe", "");
+  commands::add_all(program.command());
+  std::vector<std::string> words;
+  for (const commands::Advice& advice : commands::all_advice())
+    words.push_back(commands::in_words(Remark{"", advice.kind, {"umbmark"}}));
+  return words;
 }
 
 std::vector<std::string> split(const std::string& words) {
@@ -51,9 +56,9 @@ std::string all_help() {
   return text;
 }
 
-TEST(Remedies, NameCommandsThatExist) {
+TEST(Advice, NamesCommandsThatExist) {
   int commands = 0;
-  for (const std::string& sentence : all_remedies())
+  for (const std::string& sentence : all_words())
     for (const std::string& command : found(sentence, "['`]astrolabe ([a-z-]+( list| runs)?)")) {
       std::vector<std::string> words = split(command);
       words.emplace_back("--help");
@@ -63,10 +68,10 @@ TEST(Remedies, NameCommandsThatExist) {
   EXPECT_GT(commands, 10);
 }
 
-TEST(Remedies, NameOptionsThatExist) {
+TEST(Advice, NamesOptionsThatExist) {
   const std::string help = all_help();
   int options = 0;
-  for (const std::string& sentence : all_remedies())
+  for (const std::string& sentence : all_words())
     for (const std::string& option : found(sentence, "(--[a-z-]+)")) {
       EXPECT_THAT(help, testing::HasSubstr(option + " ")) << sentence;
       ++options;
@@ -74,9 +79,16 @@ TEST(Remedies, NameOptionsThatExist) {
   EXPECT_GT(options, 15);
 }
 
-TEST(Remedies, AreWholeClausesBehindTheFact) {
-  for (const std::string& sentence : all_remedies()) {
-    EXPECT_THAT(sentence, testing::MatchesRegex("(: | \\(|; ).+")) << "joined to the fact";
+TEST(Advice, IsOneForEachKind) {
+  all_words();
+  const std::vector<commands::Advice> all = commands::all_advice();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(all[i].kind == all[k].kind) << all[i].words;
+}
+
+TEST(Advice, IsAWholeClauseBehindTheSentence) {
+  for (const std::string& sentence : all_words()) {
+    EXPECT_THAT(sentence, testing::MatchesRegex("(: | \\(|; ).+")) << "joined to the sentence";
     EXPECT_THAT(sentence, testing::Not(testing::HasSubstr("{}")));
     EXPECT_FALSE(sentence.ends_with('.')) << sentence;
   }

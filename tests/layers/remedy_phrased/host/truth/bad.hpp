@@ -1,5 +1,0 @@
-#pragma once
-
-const char* const kHint =
-    "the times run backwards: "
-    "record it again";

@@ -1,3 +1,0 @@
-#pragma once
-
-const char* const kHint = "no permission (sudo usermod -aG dialout)";
