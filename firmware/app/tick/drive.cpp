@@ -7,12 +7,13 @@ namespace {
 
 // Scales both components by one factor, so that a command beyond the limits keeps its curvature.
 BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
+  if (!exceeds(twist.v_umps, limits.speed_umps) && !exceeds(twist.omega_uradps, limits.yaw_rate_uradps))
+    return twist;
   const std::int64_t v = magnitude(twist.v_umps);
   const std::int64_t omega = magnitude(twist.omega_uradps);
   const bool v_leads = v * limits.yaw_rate_uradps >= omega * limits.speed_umps;
   const std::int64_t wanted = v_leads ? v : omega;
   const std::int64_t most = v_leads ? limits.speed_umps : limits.yaw_rate_uradps;
-  if (wanted <= most) return twist;
   return {static_cast<std::int32_t>(twist.v_umps * most / wanted),
           static_cast<std::int32_t>(twist.omega_uradps * most / wanted)};
 }
@@ -42,7 +43,8 @@ Drive::Output Drive::advance(const TickInput& input) {
   odometry_.advance(steps.left, steps.right, wheels_.speeds());
   const State before = state();
   supervisor_.advance(input, steps.plausible, steering_, wheels_);
-  if (state() != before) follow_state();
+  if (state() != before) [[unlikely]]
+    follow_state();
   return output(set_point(), input);
 }
 
@@ -236,10 +238,11 @@ void Drive::drop_waiting() {
   if (armed() && !faults().any()) path_.drop_waiting(now_us_);
 }
 
-void Drive::start_path() {
-  if (!supervisor_.request(Event::drive)) return;
+bool Drive::start_path() {
+  if (!supervisor_.request(Event::drive)) return false;
   steering_ = Steering::path;
   path_.begin_at(odometry_.pose(), now_us_);
+  return true;
 }
 
 void Drive::end_segment() {
@@ -250,15 +253,18 @@ void Drive::end_segment() {
 }
 
 Drive::SetPoint Drive::set_point() {
-  if (state() == State::armed && path_.ready() && !paused_) start_path();
   switch (state()) {
+    case State::armed:
+      if (paused_ || !path_.ready() || !start_path()) return {};
+      return set_point_of_path();
     case State::driving:
       return steering_ == Steering::path ? set_point_of_path() : set_point_of_ramp();
     case State::stopping: {
       const SetPoint ramp = set_point_of_ramp();
-      if (ramp_.arrived()) supervisor_.set_point_is_zero();
+      const bool arrived = ramp_.arrived();
+      if (arrived) supervisor_.set_point_is_zero();
       // After a fault the ramp ends in the state `fault`, otherwise in `armed`.
-      if (ramp_.arrived() && wheels_.stopped() && supervisor_.request(Event::rest)) follow_state();
+      if (arrived && wheels_.stopped() && supervisor_.request(Event::rest)) follow_state();
       return ramp;
     }
     default:

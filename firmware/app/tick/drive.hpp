@@ -140,7 +140,7 @@ class Drive {
   void end_steering();
   bool request_stop();
   void end_segments();
-  void start_path();
+  bool start_path();
   void end_segment();
   SetPoint set_point();
   SetPoint set_point_of_ramp();
