@@ -1,4 +1,5 @@
 #include "host/calibration/end_poses/line_scale.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <cmath>
 #include <vector>
@@ -7,7 +8,6 @@
 #include "host/base/text/numbers.hpp"
 #include "host/calibration/end_poses/robust_weight.hpp"
 #include "host/calibration/motion/arc.hpp"
-#include "host/calibration/motion/median.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -1,4 +1,5 @@
 #include "host/calibration/end_poses/robust_fit.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include "host/calibration/end_poses/end_scatter.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/robust_weight.hpp"
-#include "host/calibration/motion/median.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -1,4 +1,5 @@
 #include "host/calibration/end_poses/robust_weight.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +32,8 @@ double robust_scatter(const std::vector<Distance>& distances, double fitted) {
     ratios.push_back(one.square / usual_square(one.count, probability));
     numbers += one.count;
   }
-  const auto at = ratios.begin() + static_cast<std::ptrdiff_t>(middle);
-  std::nth_element(ratios.begin(), at, ratios.end());
-  return (*at * numbers + kPriorNumbers) / (std::max(0.0, numbers - fitted) + kPriorNumbers);
+  return (lower_median_of(std::move(ratios)) * numbers + kPriorNumbers) /
+         (std::max(0.0, numbers - fitted) + kPriorNumbers);
 }
 
 }  // namespace astro::calibration

@@ -1,4 +1,5 @@
 #include "host/calibration/likelihood/agreement.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -151,10 +152,7 @@ double typical_dispersion(std::span<const Disagreement> runs) {
     if (run.degrees_of_freedom > 0)
       ratios.push_back(run.chi_square / kMedian[static_cast<std::size_t>(run.degrees_of_freedom)]);
   if (ratios.empty()) return 1;
-  // The lower one of an even number, so that half of the runs cannot make the other half look usual.
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>((ratios.size() - 1) / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return std::max(1.0, *middle);
+  return std::max(1.0, lower_median_of(std::move(ratios)));
 }
 
 std::vector<bool> outliers(std::span<const Disagreement> runs) {

@@ -1,4 +1,5 @@
 #include "host/calibration/likelihood/slip_events.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "host/calibration/motion/median.hpp"
-#include "host/calibration/motion/median_period.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
 
 namespace astro::calibration {

@@ -1,10 +1,9 @@
 #include "host/calibration/motion/tracker_noise.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "host/calibration/motion/median.hpp"
 
 namespace astro::calibration {
 namespace {

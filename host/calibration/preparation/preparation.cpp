@@ -1,4 +1,5 @@
 #include "host/calibration/preparation/preparation.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/calibration/motion/median_period.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/handedness.hpp"

@@ -1,4 +1,5 @@
 #include "host/calibration/preparation/relative_pose.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -47,11 +48,10 @@ Eigen::Vector2d least_eigenvector(const Eigen::Matrix2d& a) {
   return {-std::sin(largest_rad), std::cos(largest_rad)};
 }
 
-double quantile(std::vector<double> values, double fraction) {
-  std::sort(values.begin(), values.end());
+double quantile(const std::vector<double>& values, double fraction) {
   const auto index =
       static_cast<std::size_t>(std::floor(fraction * static_cast<double>(values.size()) + 0.5));
-  return values[std::min(index, values.size() - 1)];
+  return at_rank(values, std::min(index, values.size() - 1));
 }
 
 /// What `predicted` says, without the steps: to copy them costs more than to follow them.

@@ -1,4 +1,5 @@
 #include "host/film/picture/corner_refinement.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <array>
@@ -65,8 +66,7 @@ struct Line {
 std::optional<Line> robust_line(const std::vector<EdgePoint>& points) {
   std::vector<double> offsets;
   for (const EdgePoint& point : points) offsets.push_back(point.across);
-  std::nth_element(offsets.begin(), offsets.begin() + static_cast<long>(offsets.size() / 2), offsets.end());
-  Line line{offsets[offsets.size() / 2], 0};
+  Line line{median_of(std::move(offsets)), 0};
   double scale = 1;  // px; the detector's corners may be wrong by that much
   for (int round = 0; round < 6; ++round) {
     double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0, wrr = 0;

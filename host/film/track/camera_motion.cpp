@@ -1,4 +1,5 @@
 #include "host/film/track/camera_motion.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -12,12 +13,6 @@ using Eigen::Vector2d;
 constexpr double kSmooth_s = 2.5;     // to either side
 constexpr double kOutlier_px = 1;     // a tag that moves otherwise than the others is half hidden
 constexpr double kWorthIt_px = 0.25;  // motions below this are noise of the codec
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The mean of what lies near the median.
 double robust_mean(const std::vector<double>& values) {

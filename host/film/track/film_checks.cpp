@@ -1,4 +1,5 @@
 #include "host/film/track/film_checks.hpp"
+#include "host/base/order_statistics.hpp"
 #include "host/film/picture/how_to_film.hpp"
 
 #include <fmt/format.h>
@@ -47,12 +48,6 @@ std::string quoted(const fs::path& film) { return "'" + film.string() + "'"; }
                                  const std::function<bool(int)>& wanted, const std::string& whose,
                                  const char* advice) {
   refuse_missing(film, why_no_tag(film, info, wanted), whose, advice);
-}
-
-double typical(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 bool drives(const FilmPose& pose) {
@@ -207,7 +202,7 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
     sides.push_back(shortest_side(one.corners));
     widths.push_back(one.edge_width_px);
   }
-  if (const double side = typical(sides); side < kSmall_px)
+  if (const double side = median_of(sides); side < kSmall_px)
     throw Error(fmt::format("{}: the robot's tag is too small in the picture: {:.0f} px, and 20 are needed",
                             quoted(film), side) +
                 how_to::kNearer);
@@ -220,7 +215,7 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
     throw Error(fmt::format("{}: the robot's tag is seen in {} of {} pictures only", quoted(film),
                             sightings.robot.size(), sightings.pictures) +
                 how_to::kWholeField);
-  if (const double width = typical(widths); width > kBlurred_px)
+  if (const double width = median_of(widths); width > kBlurred_px)
     throw Error(fmt::format("{}: the picture is blurred: the edges of the robot's tag are {:.1f} px wide",
                             quoted(film), 2 * width) +
                 how_to::kSharper);

@@ -1,4 +1,5 @@
 #include "host/film/track/film_poses.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,9 +50,7 @@ void refine(const Scene& scene, std::vector<FilmPose>& poses, std::vector<RobotT
 double median_misfit(const std::vector<FilmPose>& poses) {
   std::vector<double> all;
   for (const FilmPose& pose : poses) all.push_back(pose.rms_px);
-  const auto middle = all.begin() + static_cast<long>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
+  return median_of(std::move(all));
 }
 
 void drop_misfits(std::vector<FilmPose>& poses) {

@@ -1,4 +1,5 @@
 #include "host/film/track/floor_survey.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <map>
@@ -38,9 +39,7 @@ TagCorners typical(const std::vector<TagCorners>& all) {
     for (Eigen::Index axis = 0; axis < 2; ++axis) {
       std::vector<double> values;
       for (const TagCorners& one : all) values.push_back(one[i][axis]);
-      const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      result[i][axis] = *middle;
+      result[i][axis] = median_of(std::move(values));
     }
   return result;
 }

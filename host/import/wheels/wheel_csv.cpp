@@ -1,4 +1,5 @@
 #include "host/import/wheels/wheel_csv.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -115,9 +116,7 @@ std::vector<Step> steps_of(std::span<const WheelSample> sums) {
 double usual_ns(const std::vector<Step>& steps) {
   std::vector<double> times_ns;
   for (const Step& step : steps) times_ns.push_back(step.time_ns);
-  const auto middle = times_ns.begin() + static_cast<std::ptrdiff_t>(times_ns.size() / 2);
-  std::nth_element(times_ns.begin(), middle, times_ns.end());
-  return *middle;
+  return median_of(std::move(times_ns));
 }
 
 /// Rows that a log of travel per interval has lost. Its rows come evenly; after a longer step the row holds the travel of

@@ -1,4 +1,5 @@
 #include "host/motor/model/motor_model.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -20,13 +21,6 @@ constexpr int kPasses = 5;
 double bump(double u) { return std::pow(1 - u * u, 3); }
 double bump_slope(double u) { return -6 * u * (1 - u * u) * (1 - u * u); }
 double bump_integral(double u) { return u - std::pow(u, 3) + 0.6 * std::pow(u, 5) - std::pow(u, 7) / 7; }
-
-double period_s(std::span<const Sample> samples) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(samples[i].time_s - samples[i - 1].time_s);
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-  return steps[steps.size() / 2];
-}
 
 // +1 or -1 if the wheel turned that way in every slice, otherwise 0. Missing samples do not count as motion.
 double sense_of(std::span<const Sample> window, double count_m) {
@@ -142,7 +136,7 @@ struct Range {
 std::vector<Range> turning_ranges(std::span<const Sample> samples, double count_m) {
   std::vector<Range> ranges;
   if (samples.size() < 2) return ranges;
-  const double length_s = std::max(kWindow_s, kSamplesPerWindow * period_s(samples));
+  const double length_s = std::max(kWindow_s, kSamplesPerWindow * median_period_s(samples));
   std::size_t begin = 0, end = 0;
   while (end < samples.size()) {
     while (end < samples.size() && samples[end].time_s < samples[begin].time_s + length_s - 1e-6) ++end;

@@ -1,10 +1,10 @@
 #include "host/simulation/study/summary.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
-#include "host/calibration/motion/median.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
 namespace astro::simulation::study {
@@ -89,7 +89,7 @@ std::optional<double> median_K_m(const std::vector<Trial>& trials) {
   for (const Trial& trial : trials)
     if (trial.ml_K_m) values.push_back(*trial.ml_K_m);
   if (values.empty()) return std::nullopt;
-  return calibration::median_of(std::move(values));
+  return median_of(std::move(values));
 }
 
 /// What maximum likelihood leaves of each factor, beside the bound and on average.

@@ -1,4 +1,5 @@
 #include "host/truth/floor/inspection.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,12 +75,10 @@ std::vector<Window> windows_of(const std::vector<TrackedPose>& samples) {
 }
 
 /// The mean squared spread of the stillest windows, by which a rest is recognised.
-double stillest_spread(std::vector<Window> windows) {
-  const auto spread = [](const Window& w) { return w.variance[0] + w.variance[1] + w.variance[2]; };
-  const auto still = windows.begin() + static_cast<std::ptrdiff_t>(windows.size() / 20);
-  std::nth_element(windows.begin(), still, windows.end(),
-                   [&](const Window& a, const Window& b) { return spread(a) < spread(b); });
-  return spread(*still);
+double stillest_spread(const std::vector<Window>& windows) {
+  std::vector<double> spreads;
+  for (const Window& w : windows) spreads.push_back(w.variance[0] + w.variance[1] + w.variance[2]);
+  return at_rank(std::move(spreads), windows.size() / 20);
 }
 
 /// Standard deviations within windows of half a second in which the body does not move more than its noise lets
@@ -117,9 +116,7 @@ double median_period(const std::vector<TrackedPose>& samples) {
   for (std::size_t i = 1; i < samples.size(); ++i)
     steps.push_back(samples[i].time_ns - samples[i - 1].time_ns);
   if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return 1e-9 * static_cast<double>(*middle);
+  return 1e-9 * static_cast<double>(median_of(std::move(steps)));
 }
 
 void count_gaps(const std::vector<TrackedPose>& samples, BodyInspection& out) {

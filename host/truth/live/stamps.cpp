@@ -1,4 +1,5 @@
 #include "host/truth/live/stamps.hpp"
+#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +19,6 @@ std::vector<double> intervals_of(std::span<const std::int64_t> times_us) {
   for (std::size_t i = 1; i < times_us.size(); ++i)
     intervals.push_back(static_cast<double>(times_us[i] - times_us[i - 1]));
   return intervals;
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double periods_in(double interval, double period) { return std::max(1.0, std::round(interval / period)); }
