@@ -1,13 +1,14 @@
 #include "host/film/runs/preview.hpp"
 
-#include <zlib.h>
+#include <cairo/cairo.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
+#include <cstring>
+#include <memory>
 #include <string>
-#include <string_view>
 
+#include "host/base/error.hpp"
 #include "host/film/picture/frame_stream.hpp"
 #include "host/film/picture/gray_frame.hpp"
 
@@ -15,125 +16,85 @@ namespace astro::film {
 namespace {
 
 struct Colour {
-  std::uint8_t red, green, blue;
+  double red, green, blue;  // of 1
 };
 
-/// A colour picture to draw on. What lies outside is cut off.
-class Canvas {
+constexpr Colour kFloor{0, 0.78, 0.24}, kRobot{0.9, 0.12, 0.12}, kPath{0.16, 0.47, 1};
+
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) {
+  auto& all = *static_cast<std::vector<std::uint8_t>*>(bytes);
+  all.insert(all.end(), data, data + length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void require(cairo_status_t status) {
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw Error(std::string("the picture of the film cannot be drawn: ") + cairo_status_to_string(status));
+}
+
+/// A colour picture to draw on, in pixels of the film. What lies outside is cut off.
+class Drawing {
  public:
-  explicit Canvas(const GrayFrame& frame);
+  explicit Drawing(const GrayFrame& frame)
+      : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, frame.width, frame.height),
+                 &cairo_surface_destroy),
+        context_(cairo_create(surface_.get()), &cairo_destroy) {
+    require(cairo_status(context_.get()));
+    copy(frame);
+    cairo_translate(context_.get(), 0.5, 0.5);  // the centre of a film's first pixel is (0, 0)
+    cairo_set_line_width(context_.get(), 2);
+    cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
+  }
 
-  /// Two pixels wide.
-  void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Colour colour);
-  /// Digits, 15 by 21 px each, from the top left corner `at` on.
-  void number(const Eigen::Vector2d& at, int value, Colour colour);
+  void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Colour colour) {
+    // A point behind the camera, or far beside the picture, has no place on it.
+    constexpr double kFarthest_px = 20'000;
+    if (!(from.cwiseAbs().maxCoeff() < kFarthest_px) || !(to.cwiseAbs().maxCoeff() < kFarthest_px)) return;
+    choose(colour);
+    cairo_move_to(context_.get(), from.x(), from.y());
+    cairo_line_to(context_.get(), to.x(), to.y());
+    cairo_stroke(context_.get());
+  }
 
-  /// As a PNG file.
-  std::vector<std::uint8_t> png() const;
+  void outline(const TagCorners& corners, Colour colour) {
+    for (std::size_t i = 0; i < 4; ++i) line(corners[i], corners[(i + 1) % 4], colour);
+  }
+
+  /// `at`: the left end of the base line.
+  void text(const Eigen::Vector2d& at, const std::string& words, Colour colour) {
+    choose(colour);
+    cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+    cairo_set_font_size(context_.get(), 28);
+    cairo_move_to(context_.get(), at.x(), at.y());
+    cairo_show_text(context_.get(), words.c_str());
+  }
+
+  std::vector<std::uint8_t> png() const {
+    require(cairo_status(context_.get()));
+    std::vector<std::uint8_t> bytes;
+    require(cairo_surface_write_to_png_stream(surface_.get(), append, &bytes));
+    return bytes;
+  }
 
  private:
-  void dot(int x, int y, Colour colour);
+  void copy(const GrayFrame& frame) {
+    cairo_surface_flush(surface_.get());
+    unsigned char* to = cairo_image_surface_get_data(surface_.get());
+    const int stride = cairo_image_surface_get_stride(surface_.get());
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) {
+        constexpr std::uint32_t kAllThree = 0x10101;
+        const std::uint32_t pixel = kAllThree * frame.at(x, y);
+        std::memcpy(to + static_cast<std::ptrdiff_t>(y) * stride + std::ptrdiff_t{4} * x, &pixel,
+                    sizeof pixel);
+      }
+    cairo_surface_mark_dirty(surface_.get());
+  }
+  void choose(Colour colour) { cairo_set_source_rgb(context_.get(), colour.red, colour.green, colour.blue); }
 
-  int width_, height_;
-  std::vector<std::uint8_t> pixels_;  // red, green, blue
+  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
+  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context_;
 };
-
-/// Rows of five pixels from the top, the leftmost in the highest of five bits.
-constexpr std::array<std::array<std::uint8_t, 7>, 10> kDigits{{{14, 17, 19, 21, 25, 17, 14},
-                                                               {4, 12, 4, 4, 4, 4, 14},
-                                                               {14, 17, 1, 2, 4, 8, 31},
-                                                               {31, 2, 4, 2, 1, 17, 14},
-                                                               {2, 6, 10, 18, 31, 2, 2},
-                                                               {31, 16, 30, 1, 1, 17, 14},
-                                                               {6, 8, 16, 30, 17, 17, 14},
-                                                               {31, 1, 2, 4, 8, 8, 8},
-                                                               {14, 17, 17, 14, 17, 17, 14},
-                                                               {14, 17, 17, 15, 1, 2, 12}}};
-constexpr int kDot = 3;  // pixels for one of a digit
-
-void append(std::vector<std::uint8_t>& to, std::uint32_t value) {
-  for (const int shift : {24, 16, 8, 0}) to.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-void append_chunk(std::vector<std::uint8_t>& png, std::string_view type,
-                  const std::vector<std::uint8_t>& data) {
-  append(png, static_cast<std::uint32_t>(data.size()));
-  const std::size_t begin = png.size();
-  png.insert(png.end(), type.begin(), type.end());
-  png.insert(png.end(), data.begin(), data.end());
-  append(png,
-         static_cast<std::uint32_t>(crc32(0, png.data() + begin, static_cast<uInt>(png.size() - begin))));
-}
-
-Canvas::Canvas(const GrayFrame& frame) : width_(frame.width), height_(frame.height) {
-  pixels_.reserve(3 * frame.pixels.size());
-  for (const std::uint8_t value : frame.pixels) pixels_.insert(pixels_.end(), 3, value);
-}
-
-void Canvas::dot(int x, int y, Colour colour) {
-  if (x < 0 || y < 0 || x >= width_ || y >= height_) return;
-  const std::size_t at =
-      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
-  pixels_[at] = colour.red;
-  pixels_[at + 1] = colour.green;
-  pixels_[at + 2] = colour.blue;
-}
-
-void Canvas::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Colour colour) {
-  constexpr double kLongest_px = 20'000;  // what is far outside would take for ever
-  const double length = (to - from).norm();
-  if (!(length < kLongest_px) || !from.allFinite()) return;
-  const int steps = static_cast<int>(2 * length) + 1;
-  for (int i = 0; i <= steps; ++i) {
-    const Eigen::Vector2d p = from + (to - from) * (static_cast<double>(i) / steps);
-    if (!(p.cwiseAbs().maxCoeff() < kLongest_px)) continue;
-    const int x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
-    for (const int right : {0, 1})
-      for (const int down : {0, 1}) dot(x + right, y + down, colour);
-  }
-}
-
-void Canvas::number(const Eigen::Vector2d& at, int value, Colour colour) {
-  int left = static_cast<int>(at.x());
-  const int top = static_cast<int>(at.y());
-  for (const char digit : std::to_string(value)) {
-    if (digit < '0' || digit > '9') continue;
-    const auto& rows = kDigits[static_cast<std::size_t>(digit - '0')];
-    for (int y = 0; y < 7 * kDot; ++y)
-      for (int x = 0; x < 5 * kDot; ++x)
-        if ((rows[static_cast<std::size_t>(y / kDot)] >> (4 - x / kDot) & 1) != 0)
-          dot(left + x, top + y, colour);
-    left += 6 * kDot;
-  }
-}
-
-std::vector<std::uint8_t> Canvas::png() const {
-  std::vector<std::uint8_t> rows;
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(width_);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height_); ++y) {
-    rows.push_back(0);  // no filter
-    const auto row = pixels_.begin() + static_cast<long>(y * row_bytes);
-    rows.insert(rows.end(), row, row + static_cast<long>(row_bytes));
-  }
-  uLongf packed_bytes = compressBound(rows.size());
-  std::vector<std::uint8_t> packed(packed_bytes);
-  compress2(packed.data(), &packed_bytes, rows.data(), rows.size(), 6);
-  packed.resize(packed_bytes);
-  std::vector<std::uint8_t> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'}, header;
-  append(header, static_cast<std::uint32_t>(width_));
-  append(header, static_cast<std::uint32_t>(height_));
-  header.insert(header.end(), {8, 2, 0, 0, 0});  // bits a channel, true colour
-  append_chunk(png, "IHDR", header);
-  append_chunk(png, "IDAT", packed);
-  append_chunk(png, "IEND", {});
-  return png;
-}
-
-constexpr Colour kFloor{0, 200, 60}, kRobot{230, 30, 30}, kPath{40, 120, 255};
-
-void outline(Canvas& canvas, const TagCorners& corners, Colour colour) {
-  for (std::size_t i = 0; i < 4; ++i) canvas.line(corners[i], corners[(i + 1) % 4], colour);
-}
 
 }  // namespace
 
@@ -141,7 +102,7 @@ std::vector<std::uint8_t> preview_png(const std::filesystem::path& film, const F
   FrameStream stream(film, track.info, FrameStream::Pictures::key_only);
   GrayFrame frame;
   stream.next(frame);
-  Canvas canvas(frame);
+  Drawing drawing(frame);
   const Scene& scene = track.scene;
   const auto seen = [&](const FilmPose& pose) {
     return project(scene.camera, {pose.pose.x_m, pose.pose.y_m, scene.robot_height_m});
@@ -150,16 +111,16 @@ std::vector<std::uint8_t> preview_png(const std::filesystem::path& film, const F
   constexpr double kGap_s = 0.5;  // where the tag was hidden the path is not known
   for (std::size_t i = 1; i < poses.size(); ++i)
     if (poses[i].time_s - poses[i - 1].time_s < kGap_s)
-      canvas.line(seen(poses[i - 1]), seen(poses[i]), kPath);
+      drawing.line(seen(poses[i - 1]), seen(poses[i]), kPath);
   for (std::size_t i = 0; i < scene.tags.size(); ++i) {
     const TagCorners corners = floor_corners(scene, i);
-    outline(canvas, corners, kFloor);
-    canvas.number(corners[2] + Eigen::Vector2d(6, -6), scene.tags[i].id, kFloor);
+    drawing.outline(corners, kFloor);
+    drawing.text(corners[2] + Eigen::Vector2d(6, 15), std::to_string(scene.tags[i].id), kFloor);
   }
   if (!poses.empty())
-    outline(canvas, robot_corners(scene, poses.front().pose, {}, track.sightings.robot.front().corners),
-            kRobot);
-  return canvas.png();
+    drawing.outline(robot_corners(scene, poses.front().pose, {}, track.sightings.robot.front().corners),
+                    kRobot);
+  return drawing.png();
 }
 
 }  // namespace astro::film

@@ -32,15 +32,15 @@ MotionRates rates_of(const std::vector<film::FilmPose>& poses);
 MotionRates rates_of(const recording::Run& run);
 
 struct Likeness {
-  double all = 0;      // at most 1; what of the run the film does not show counts as unlike
-  double visible = 0;  // of what the film shows
+  double all = 0;      // at most 1; a part of the run that the film does not show counts as unlike
+  double visible = 0;  // of the part that the film shows
   double shown = 0;    // part of the run's motion that the film shows
 };
 
 /// How alike both are if the robot's time is the film's plus `offset_s`.
 Likeness likeness(const MotionRates& run, const MotionRates& film, double offset_s);
 
-/// A place that is by so little less alike fits as well.
+/// Two places whose likenesses differ by less than this fit equally well.
 inline constexpr double kRival = 0.02;
 
 /// Where in a film a run is: robot's time = film's time + offset_s.
