@@ -5,16 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/side.hpp"
 #include "hal/sim/noise.hpp"
 
 /// A simulated robot: its geometry as designed and as built, its noise, its wiring, its supply.
 namespace astro::sim {
 
-enum class Side : std::uint8_t { left, right };
-
 /// One value per wheel, indexed by `at`.
 using Pair = std::array<double, 2>;
-constexpr std::size_t at(Side side) { return static_cast<std::size_t>(side); }
 
 /// Wiring as found on a robot that somebody else built. A reversed motor has its leads exchanged (its encoder
 /// stays as it is); a reversed encoder has its two channels exchanged; swapped means left and right are

@@ -267,9 +267,9 @@ class Campaign {
     silence(2);
   }
   void blocked_wheel() {
-    robot_.board().set_load(sim::Side::right, {.drag_Nm = 100});
+    robot_.board().set_load(Side::right, {.drag_Nm = 100});
     client_.pump(std::chrono::milliseconds(random_.between(1, 600)));
-    robot_.board().set_load(sim::Side::right, {});
+    robot_.board().set_load(Side::right, {});
   }
 
   static constexpr std::array<std::pair<const char*, Act>, 33> kActs{{

@@ -180,7 +180,7 @@ void load_left_wheel(DriveRig& rig, const char* what) {
   rig.run_ms(3000);
   const double before = heading();
   for (const double torque_Nm : {-0.88, 0.0}) {
-    rig.board().set_load(sim::Side::left, {.torque_Nm = torque_Nm});
+    rig.board().set_load(Side::left, {.torque_Nm = torque_Nm});
     double worst = 0;
     for (int ms = 0; ms < 3000; ++ms) {
       rig.step();

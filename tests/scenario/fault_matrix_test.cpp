@@ -35,9 +35,9 @@ const std::vector<Cause> kCauses{
     {Fault::over_voltage, [](DriveRig& rig) { rig.board().battery().set_open_circuit_V(16); },
      [](DriveRig& rig) { return rig.board().battery().millivolts() > 14'000; }},
     {Fault::over_speed,
-     [](DriveRig& rig) { rig.board().set_load(sim::Side::left, {.torque_Nm = 20}); },  // down a cliff
+     [](DriveRig& rig) { rig.board().set_load(Side::left, {.torque_Nm = 20}); },  // down a cliff
      [](DriveRig& rig) { return rig.drive().wheels().speeds().left_umps > 1'200'000; }},
-    {Fault::stall, [](DriveRig& rig) { rig.board().set_load(sim::Side::right, {.drag_Nm = 100}); },
+    {Fault::stall, [](DriveRig& rig) { rig.board().set_load(Side::right, {.drag_Nm = 100}); },
      [](DriveRig& rig) {
        return std::abs(rig.drive().wheels().forward_duty().right) > 16'383 &&
               std::abs(rig.drive().wheels().speeds().right_umps) <= 3'000;
@@ -48,7 +48,7 @@ const std::vector<Cause> kCauses{
        rig.board().encoders().preset({now.left, now.right - 50'000});
      },
      [](DriveRig&) { return true; }},
-    {Fault::encoder, [](DriveRig& rig) { rig.board().encoders().lose_channel(sim::Side::left); },
+    {Fault::encoder, [](DriveRig& rig) { rig.board().encoders().lose_channel(Side::left); },
      [](DriveRig& rig) {  // the wheel really turns, and the motor pulls
        return std::abs(rig.drive().wheels().forward_duty().left) > 16'383 && std::abs(rig.left_mps()) > 0.05;
      },
@@ -68,8 +68,7 @@ const std::vector<Cause> kCauses{
        weak.set(Param::kp, kWeak_16);
        weak.set(Param::ki, 0);
        rig.drive().configure(weak);
-       for (const sim::Side side : {sim::Side::left, sim::Side::right})
-         rig.board().set_load(side, {.torque_Nm = 0.25});
+       for (const Side side : {Side::left, Side::right}) rig.board().set_load(side, {.torque_Nm = 0.25});
      },
      [](DriveRig& rig) {
        return rig.drive().mode() == Mode::stopping && rig.drive().wheels().set_points() == WheelSpeeds{};

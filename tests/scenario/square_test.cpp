@@ -61,8 +61,8 @@ PlanarPose after_arc(const PlanarPose& from, double length_m, double angle_rad) 
 /// diameter, and the same difference of travel turns a shorter wheelbase further.
 PlanarPose replay(const sim::Config& config, Sense sense) {
   const sim::Geometry built = sim::true_geometry(config);
-  const double left = built.diameter_m[at(sim::Side::left)] / config.nominal_diameter_m;
-  const double right = built.diameter_m[at(sim::Side::right)] / config.nominal_diameter_m;
+  const double left = built.diameter_m[at(Side::left)] / config.nominal_diameter_m;
+  const double right = built.diameter_m[at(Side::right)] / config.nominal_diameter_m;
   const auto move = [&](const PlanarPose& from, double left_m, double right_m) {
     return after_arc(from, (right * right_m + left * left_m) / 2,
                      (right * right_m - left * left_m) / built.wheelbase_m);

@@ -79,7 +79,7 @@ TEST_P(NotObeying, StopEndsWithoutPowerWithinThreeSecondsOfSilence) {
     SCOPED_TRACE(fmt::format("Stop {} ms after the start", drive_ms));
     DriveRig rig(support::mismatched_robot(), GetParam().set);
     const sim::WheelLoad slope{.torque_Nm = GetParam().slope_Nm};
-    for (const sim::Side side : {sim::Side::left, sim::Side::right}) rig.board().set_load(side, slope);
+    for (const Side side : {Side::left, Side::right}) rig.board().set_load(side, slope);
     drive_and_stop(rig, drive_ms);
     rig.silent = true;
     const int ms = powered_for_ms(rig);
@@ -95,7 +95,7 @@ TEST_P(NotObeying, StopEndsWithoutPowerWithinThreeSecondsOfSilence) {
 TEST_P(NotObeying, StopEndsWithoutPowerAlsoWithAHostThatStays) {
   DriveRig rig(support::mismatched_robot(), GetParam().set);
   const sim::WheelLoad slope{.torque_Nm = GetParam().slope_Nm};
-  for (const sim::Side side : {sim::Side::left, sim::Side::right}) rig.board().set_load(side, slope);
+  for (const Side side : {Side::left, Side::right}) rig.board().set_load(side, slope);
   drive_and_stop(rig, 20);
   const int ms = powered_for_ms(rig);
   EXPECT_GE(ms, 0) << "still powered after 10 s";
@@ -128,8 +128,7 @@ TEST(Stopping, WheelsThatRollOnASecondAfterTheirSetPointStandsAreAFault) {
   DriveRig rig(support::mismatched_robot(), with({{Param::kp, q16(5)}, {Param::ki, 0}}));
   rig.hold_velocity(0.3, 0);
   rig.run_ms(1500);
-  for (const sim::Side side : {sim::Side::left, sim::Side::right})
-    rig.board().set_load(side, {.torque_Nm = 0.25});
+  for (const Side side : {Side::left, Side::right}) rig.board().set_load(side, {.torque_Nm = 0.25});
   rig.release();
   rig.drive().stop();
   int set_point_ms = 0;
@@ -184,8 +183,7 @@ TEST(Stopping, AHostNeedNotSayMoreThanStop) {
 
 TEST(Stopping, StoppingAgainAndAgainDoesNotPutTheDeadlineOff) {
   DriveRig rig(support::mismatched_robot(), with({{Param::kp, q16(5)}, {Param::ki, 0}}));
-  for (const sim::Side side : {sim::Side::left, sim::Side::right})
-    rig.board().set_load(side, {.torque_Nm = 0.25});
+  for (const Side side : {Side::left, Side::right}) rig.board().set_load(side, {.torque_Nm = 0.25});
   drive_and_stop(rig, 1500);
   int ms = 0;
   for (; ms < 5000 && rig.powered(); ++ms) {

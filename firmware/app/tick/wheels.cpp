@@ -65,20 +65,20 @@ void Wheels::configure(const Configuration& configuration) {
   most_late_counts_ = configuration.most_late_counts;
   voltage_limit_uv_ = configuration.voltage_limit_uv;
   pair_.set_gains(configuration.gains, set_points_, accelerations_, speeds_);
-  const auto set_side = [&](Side& side, const Configuration::Side& to) {
-    side.motor_sign = to.motor_sign;
-    side.encoder_sign = to.encoder_sign;
-    side.expected_scale = to.expected_scale;
-    side.observer.set_gains(configuration.observer);
+  const auto set_wheel = [&](Wheel& wheel, const Configuration::Wheel& to) {
+    wheel.motor_sign = to.motor_sign;
+    wheel.encoder_sign = to.encoder_sign;
+    wheel.expected_scale = to.expected_scale;
+    wheel.observer.set_gains(configuration.observer);
   };
-  set_side(left_, configuration.left);
-  set_side(right_, configuration.right);
+  set_wheel(left_, configuration.left);
+  set_wheel(right_, configuration.right);
 }
 
-std::int32_t Wheels::step(Side& side, std::int32_t counts) const {
-  const std::int32_t step = wrapping_product(wrapping_difference(counts, side.seen), side.encoder_sign);
-  side.seen = counts;
-  side.edges += step < 0 ? 0 - static_cast<std::uint32_t>(step) : static_cast<std::uint32_t>(step);
+std::int32_t Wheels::step(Wheel& wheel, std::int32_t counts) const {
+  const std::int32_t step = wrapping_product(wrapping_difference(counts, wheel.seen), wheel.encoder_sign);
+  wheel.seen = counts;
+  wheel.edges += step < 0 ? 0 - static_cast<std::uint32_t>(step) : static_cast<std::uint32_t>(step);
   return step;
 }
 

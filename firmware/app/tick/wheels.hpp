@@ -27,10 +27,10 @@ class Wheels {
     SpeedObserver::Gains observer;
     std::int32_t most_counts, most_late_counts;
     std::int32_t voltage_limit_uv;
-    struct Side {
+    struct Wheel {
       std::int32_t motor_sign, encoder_sign, expected_scale;
     };
-    Side left, right;
+    Wheel left, right;
   };
   void configure(const Configuration& configuration);
 
@@ -57,7 +57,7 @@ class Wheels {
   std::uint32_t right_edges() const { return right_.edges; }
 
  private:
-  struct Side {
+  struct Wheel {
     SpeedObserver observer;
     std::int32_t expected_scale = 0;  // 2^-20 counts per tick and tick, per 1e-6 m/s^2; 2^-32
     std::int32_t expected = 0;        // change of speed in the next tick
@@ -74,11 +74,11 @@ class Wheels {
   Supply supply_of(std::int32_t battery_mv) const;
   /// Remembers the forward duty and returns it in the bridges' own sign.
   hal::Duty wired(const hal::Duty& forward);
-  std::int32_t step(Side& side, std::int32_t counts) const;
+  std::int32_t step(Wheel& wheel, std::int32_t counts) const;
   /// Precondition: the voltages are within the supply.
   static hal::Duty to_duty(const WheelVoltages& voltages, std::int32_t supply_mv);
 
-  Side left_, right_;
+  Wheel left_, right_;
   WheelPair pair_;
   Geometry geometry_;
   std::int32_t voltage_limit_uv_ = 0;

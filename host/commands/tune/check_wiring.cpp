@@ -29,10 +29,8 @@
 namespace astro::commands {
 namespace {
 
-using motor::kSides;
 using motor::Probe;
 using motor::Roll;
-using motor::Side;
 using motor::Sighting;
 using motor::WiringVerdict;
 

@@ -16,9 +16,7 @@
 namespace astro::commands {
 namespace {
 
-using motor::kSides;
 using motor::Margins;
-using motor::Side;
 using motor::StepFigures;
 
 double hertz(double radps) { return radps / (2 * std::numbers::pi); }

@@ -38,12 +38,12 @@ class World : public Model {
 
   sim::Pose truth() const { return chassis_.pose(); }
   const sim::Drivetrain& drivetrain() const { return drivetrain_; }
-  void set_load(sim::Side side, const sim::WheelLoad& load) { drivetrain_.set_load(side, load); }
+  void set_load(Side side, const sim::WheelLoad& load) { drivetrain_.set_load(side, load); }
   void set_supply_V(double volts) { supply_V_ = volts; }
   /// A fault of the driver chip: it pulls its error output down and opens both bridges.
   void set_driver_fault(bool fault);
   /// Unplugs one encoder's cable; its counts are lost.
-  void unplug(sim::Side side, bool unplugged) { unplugged_[sim::at(side)] = unplugged; }
+  void unplug(Side side, bool unplugged) { unplugged_[at(side)] = unplugged; }
 
   /// State of the bridges by side: signed duty, and whether they are open.
   struct Bridges {

@@ -56,8 +56,8 @@ struct Pace {
   }
   /// A wheel can go on like this: messages that were lost make a step longer, and delays make its time shorter.
   bool fits(double size, double time_s) const {
-    constexpr double kMost = 4;
-    return step == 0 || size <= kMost * step || size <= kMost * speed * time_s;
+    constexpr double kMostTimes = 4;
+    return step == 0 || size <= kMostTimes * step || size <= kMostTimes * speed * time_s;
   }
   static double seconds(const WheelSample& from, const WheelSample& to) {
     return 1e-9 * static_cast<double>(to.time_ns - from.time_ns);

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "common/base/side.hpp"
+
 namespace astro::importing {
 namespace {
-
-enum class Side { none, left, right };
 
 /// The words of a name in lower case: "leftWheel_joint1" has left, wheel, joint and 1.
 std::vector<std::string> words_of(std::string_view name) {
@@ -31,12 +32,12 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-Side side_of(const std::string& word) {
+std::optional<Side> side_of(const std::string& word) {
   static const std::map<std::string, Side> sides = {
       {"left", Side::left},   {"l", Side::left},  {"lhs", Side::left},  {"port", Side::left},
       {"right", Side::right}, {"r", Side::right}, {"rhs", Side::right}, {"starboard", Side::right}};
   const auto found = sides.find(word);
-  return found == sides.end() ? Side::none : found->second;
+  return found == sides.end() ? std::nullopt : std::optional(found->second);
 }
 
 bool speaks_of_wheels(const std::string& words) {
@@ -45,26 +46,26 @@ bool speaks_of_wheels(const std::string& words) {
   return false;
 }
 
-/// The name with a mark in place of the word for its side; Side::none if it has no such word, or both.
+/// The name with a mark in place of the word for its side; no side if it has no such word, or both.
 struct Sided {
-  Side side = Side::none;
+  std::optional<Side> side;
   std::string stem;
 };
 
 Sided sided(std::string_view name) {
   Sided out;
   for (const std::string& word : words_of(name)) {
-    Side side = side_of(word);
+    std::optional<Side> side = side_of(word);
     std::string rest;
     // "leftwheel" is one word.
     for (const auto& [prefix, of_prefix] : {std::pair{"left", Side::left}, std::pair{"right", Side::right}}) {
-      if (side != Side::none || !word.starts_with(prefix)) continue;
+      if (side || !word.starts_with(prefix)) continue;
       side = of_prefix;
       rest = word.substr(std::string_view(prefix).size());
     }
-    if (side != Side::none && out.side != Side::none) return {};
-    if (side != Side::none) out.side = side;
-    out.stem += (side == Side::none ? word : "<>" + rest) + " ";
+    if (side && out.side) return {};
+    if (side) out.side = side;
+    out.stem += (side ? "<>" + rest : word) + " ";
   }
   return out;
 }

@@ -10,9 +10,7 @@
 namespace astro::motor {
 namespace {
 
-using motor::kSides;
 using motor::Sample;
-using motor::Side;
 
 constexpr double kSlope_Vps = 1.0;  // slow compared with any motor's time constant
 constexpr double kStands =

@@ -5,8 +5,6 @@
 
 namespace astro::motor {
 
-using motor::kSides;
-
 RobotFacts facts_of(const robot::RemoteParameters& robot) {
   RobotFacts facts;
   facts.counts_per_motor_rev = robot.number("counts_per_motor_rev");

@@ -35,11 +35,11 @@ GainDesign design_for(const IdentifiedMotors& motors, const RobotFacts& robot, d
 }
 
 void require_possible_bandwidth(const RobotFacts& robot, double bandwidth_radps) {
-  constexpr double kFar = 1.5;
+  constexpr double kFarBeyondLargest = 1.5;
   const MotorModel& present = robot.feed_forward[0];
   if (!(present.kV > 0) || !(present.kA > 0)) return;
   DesignTask task{present, robot.observer_radps, coarsest_m(robot)};
-  if (bandwidth_radps <= kFar * design_gains(task).largest_bandwidth_radps) return;
+  if (bandwidth_radps <= kFarBeyondLargest * design_gains(task).largest_bandwidth_radps) return;
   task.bandwidth_radps = bandwidth_radps;
   design_gains(task);
 }

@@ -8,7 +8,6 @@ namespace astro::motor {
 namespace {
 
 using motor::EncoderTrace;
-using motor::Side;
 
 constexpr double kRise_Vps = 2.0, kBeyond_V = 0.5;
 constexpr double kAtMost_s = 4.0;    // in total

@@ -11,6 +11,6 @@ namespace astro::motor {
 /// turn nevertheless.
 ///
 /// Throws as DriveSession does. Nothing moves when it returns.
-motor::Probe probe_motor(Bench& bench, robot::DriveSession& session, motor::Side motor, double most_V);
+motor::Probe probe_motor(Bench& bench, robot::DriveSession& session, Side motor, double most_V);
 
 }  // namespace astro::motor

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "common/base/side.hpp"
+
 /// The motor model of a wheel, from samples of its voltage and its position:
 ///
 ///   V = kS sign(v) + kV v + kA dv/dt
@@ -31,12 +33,6 @@
 namespace astro::motor {
 
 enum class MotorProblem { does_not_follow };
-
-enum class Side : std::uint8_t { left, right };
-inline constexpr std::array kSides{Side::left, Side::right};
-constexpr std::size_t at(Side side) { return static_cast<std::size_t>(side); }
-constexpr Side other(Side side) { return side == Side::left ? Side::right : Side::left; }
-constexpr const char* name(Side side) { return side == Side::left ? "left" : "right"; }
 
 /// One wheel at one control tick. The voltage is on the motor from this sample to the next.
 struct Sample {

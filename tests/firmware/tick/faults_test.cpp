@@ -126,7 +126,7 @@ TEST_F(Faults, ASegmentThatWaitsInARampWhichAFaultEndsIsNeverDriven) {
 
 TEST_F(Faults, AWheelThatIsHeldStalls) {
   ask(protocol::Arm{});
-  board().set_load(sim::Side::left, {.torque_Nm = 0, .drag_Nm = 100});
+  board().set_load(Side::left, {.torque_Nm = 0, .drag_Nm = 100});
   ask(robot::line(5).front());
   run_ms(3000);
   expect_latched(Fault::stall);

@@ -186,7 +186,7 @@ TEST_F(Touching, FindsNoWallWhereThereIsNone) {
 
 TEST_F(Touching, NoticesWheelsThatDoNotTurnOnSoLittleVoltage) {
   begin(facing(0.1));
-  for (const sim::Side side : {sim::Side::left, sim::Side::right}) board().set_load(side, {0, 100});
+  for (const Side side : {Side::left, Side::right}) board().set_load(side, {0, 100});
   try {
     touch();
     FAIL() << "the wheels are blocked";
@@ -325,7 +325,7 @@ TEST(ObstacleGuard, LetsARobotDriveAndStopsOneThatPushes) {
     WallDriver::Hooks hooks;
     hooks.interrupted = [&] {
       sim::Board& board = desk.robot->board();
-      if (blocked && board.truth().x_m > 0.5) board.set_load(sim::Side::left, {0, 100});
+      if (blocked && board.truth().x_m > 0.5) board.set_load(Side::left, {0, 100});
       return false;
     };
     WallDriver driver(desk.client, robot, push_voltage_V({}, robot), {0.7, 1.8}, hooks);

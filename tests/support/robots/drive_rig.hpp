@@ -79,7 +79,7 @@ class DriveRig {
     silent = false;
     board_.motors().set_fault(false);
     board_.battery().set_open_circuit_V(config_.supply_V);
-    for (const sim::Side side : {sim::Side::left, sim::Side::right}) board_.set_load(side, {});
+    for (const Side side : {Side::left, Side::right}) board_.set_load(side, {});
   }
   bool powered() { return board_.motors().state() == sim::Bridge::drive; }
 
@@ -92,8 +92,8 @@ class DriveRig {
   sim::Board& board() { return board_; }
 
   // Ground truth.
-  double left_mps() const { return wheel_mps(sim::Side::left); }
-  double right_mps() const { return wheel_mps(sim::Side::right); }
+  double left_mps() const { return wheel_mps(Side::left); }
+  double right_mps() const { return wheel_mps(Side::right); }
   double v_mps() const { return (left_mps() + right_mps()) / 2; }
   double omega_radps() const { return (right_mps() - left_mps()) / config_.true_wheelbase_m; }
 
@@ -107,9 +107,8 @@ class DriveRig {
 
  private:
   static std::int32_t micro(double value) { return static_cast<std::int32_t>(std::lround(value * 1e6)); }
-  double wheel_mps(sim::Side side) const {
-    return board_.drivetrain().speed_radps()[sim::at(side)] *
-           sim::true_geometry(config_).diameter_m[sim::at(side)] / 2;
+  double wheel_mps(Side side) const {
+    return board_.drivetrain().speed_radps()[at(side)] * sim::true_geometry(config_).diameter_m[at(side)] / 2;
   }
 
   enum class Hold { nothing, velocity, voltages };

@@ -226,25 +226,24 @@ class Life {
       case 0:
       case 1: {  // a slope, which pulls at both wheels alike
         const double slope_Nm = random_.uniform(-1.5, 1.5);
-        for (const sim::Side side : {sim::Side::left, sim::Side::right})
-          board.set_load(side, {.torque_Nm = slope_Nm});
+        for (const Side side : {Side::left, Side::right}) board.set_load(side, {.torque_Nm = slope_Nm});
         break;
       }
       case 2:
-        board.set_load(random_.chance(0.5) ? sim::Side::left : sim::Side::right,
+        board.set_load(random_.chance(0.5) ? Side::left : Side::right,
                        {.torque_Nm = random_.uniform(-1, 1), .drag_Nm = random_.chance(0.5) ? 100.0 : 0.2});
         break;
       case 3:
-        for (const sim::Side side : {sim::Side::left, sim::Side::right}) board.set_load(side, {});
+        for (const Side side : {Side::left, Side::right}) board.set_load(side, {});
         break;
       case 4:
         board.battery().set_open_circuit_V(random_.uniform(6, 20));
         break;
       case 5:
-        board.encoders().lose_channel(random_.chance(0.5) ? sim::Side::left : sim::Side::right);
+        board.encoders().lose_channel(random_.chance(0.5) ? Side::left : Side::right);
         break;
       case 6:
-        board.motors().disconnect(random_.chance(0.5) ? sim::Side::left : sim::Side::right);
+        board.motors().disconnect(random_.chance(0.5) ? Side::left : Side::right);
         break;
       default: {
         const hal::EncoderCounts now = board.encoders().read();

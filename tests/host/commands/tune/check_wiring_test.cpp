@@ -21,7 +21,7 @@ motor::RollVerdict rolled(double counts_per_motor_rev, double way_m, WiringOptio
   auto& board = desk.robot->board();
   const auto hand = desk.client.on<protocol::Telemetry>([&](const auto&) {
     const bool pushes = board.truth().x_m < way_m && board.drivetrain().speed_radps()[0] < 8;
-    for (const auto side : {sim::Side::left, sim::Side::right})
+    for (const auto side : {Side::left, Side::right})
       board.set_load(side, {.torque_Nm = pushes ? 0.25 : 0.0});
   });
   const auto facts = motor::facts_of(robot::RemoteParameters::fetch(desk.client));
@@ -52,9 +52,9 @@ TEST(WiringRoll, ARobotThatNobodyRollsIsGivenUp) {
 }
 
 TEST(Sighting, WordsMeanWhatTheySay) {
-  EXPECT_EQ(sighting_from("lb")->wheel, motor::Side::left);
+  EXPECT_EQ(sighting_from("lb")->wheel, Side::left);
   EXPECT_FALSE(sighting_from("left-backward")->forward);
-  EXPECT_EQ(sighting_from("rf")->wheel, motor::Side::right);
+  EXPECT_EQ(sighting_from("rf")->wheel, Side::right);
   EXPECT_FALSE(sighting_from("none")->wheel);
   EXPECT_FALSE(sighting_from("LF"));
   EXPECT_FALSE(sighting_from(""));

@@ -11,8 +11,6 @@
 namespace astro::motor {
 namespace {
 
-using motor::kSides;
-using motor::Side;
 using support::Tells;
 using testing::HasSubstr;
 

@@ -12,8 +12,6 @@ namespace astro::motor {
 namespace {
 
 using motor::judge_wiring;
-using motor::kSides;
-using motor::Side;
 using motor::Sighting;
 using motor::WiringVerdict;
 using testing::ElementsAre;
@@ -120,8 +118,8 @@ TEST(Wiring, MotorsAndEncodersBothSwappedAreSeenThoughTheCountsAgree) {
 
 TEST(Wiring, AChannelThatBreaksAndALeadThatComesOffWhileItRunsAreNamed) {
   support::Desk desk(quiet_robot(true));
-  desk.robot->board().encoders().lose_channel(sim::Side::right);
-  desk.robot->board().motors().disconnect(sim::Side::left);
+  desk.robot->board().encoders().lose_channel(Side::right);
+  desk.robot->board().motors().disconnect(Side::left);
   EXPECT_THAT(faults(check(desk)), ElementsAre("left_motor_dead", "right_channel_missing"));
 }
 
@@ -152,7 +150,7 @@ TEST(Roll, CountsPerRevolutionComeFromBeingPushedAlongATape) {
     const Moment start = bench.fresh();
     auto& board = desk.robot->board();
     while (board.truth().x_m < 2.25) {  // somebody pushes
-      for (const auto side : {sim::Side::left, sim::Side::right})
+      for (const auto side : {Side::left, Side::right})
         board.set_load(side, {.torque_Nm = board.drivetrain().speed_radps()[0] < 10 ? 0.2 : 0.05});
       desk.client.pump(std::chrono::milliseconds(10));
     }
