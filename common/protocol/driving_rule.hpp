@@ -7,6 +7,11 @@
 
 namespace astro::protocol {
 
+/// Ends the permission of whoever drives.
+constexpr bool stops(std::uint8_t message) {
+  return message == Stop::kId || message == Disarm::kId || message == EmergencyStop::kId;
+}
+
 /// Who may move the robot, and until when: the rule that makes a stop hold. The robot applies it to the hosts at its
 /// ports, and a program that shares its port with others applies it to those programs.
 ///
@@ -53,15 +58,11 @@ class DrivingRule {
 
   /// The request was carried out.
   void note(const Host& from, std::uint8_t message) {
+    stopped_ = stopped_ || stops(message);
     switch (message) {
       case Arm::kId:
         driver_ = from;
         stopped_ = paused_ = paused_by_other_ = false;
-        return;
-      case Stop::kId:
-      case Disarm::kId:
-      case EmergencyStop::kId:
-        stopped_ = true;
         return;
       case Pause::kId:
         paused_ = true;

@@ -124,9 +124,7 @@ class HostSessions {
 
   /// Who ends its own drive stops nobody else's, and what programs at one port do to each other is known there.
   void note_stop(const HostId& host, std::uint8_t message) {
-    const bool stops = message == protocol::Stop::kId || message == protocol::Disarm::kId ||
-                       message == protocol::EmergencyStop::kId;
-    if (!stops || rule_.drives(host)) return;
+    if (!protocol::stops(message) || rule_.drives(host)) return;
     for (Session& each : sessions_) {
       if (&each == &sessions_[host.port]) continue;
       ++each.stops_by_others;

@@ -44,7 +44,7 @@ void DriverRule::note_request(SessionId id, std::uint8_t message) {
 
 void DriverRule::note_halt(SessionId id, std::uint8_t message, const PortUser& by) {
   rule_.note(id, message);
-  if (!request_rules::stops(message) || last_ == id) return;
+  if (!protocol::stops(message) || last_ == id) return;
   ++all_stops_;
   ++stops_.at(id).own;
   for (auto& [stopped, stops] : stops_)
@@ -53,7 +53,7 @@ void DriverRule::note_halt(SessionId id, std::uint8_t message, const PortUser& b
 
 void DriverRule::note_answer(SessionId id, std::uint8_t request, std::optional<ErrorCode> refused) {
   if (!refused) rule_.note(id, request);
-  certainly_stopped_ = certainly_stopped_ || (!refused && request_rules::stops(request));
+  certainly_stopped_ = certainly_stopped_ || (!refused && protocol::stops(request));
   if (request == Arm::kId) note_answer_to_arm(id, !refused);
   // Somebody at another port of the robot has stopped it.
   const bool motion = request == Velocity::kId || request == WheelVoltage::kId || request == AddSegment::kId;

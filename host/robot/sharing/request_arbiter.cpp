@@ -92,7 +92,7 @@ void RequestArbiter::stop_for_gone_driver(microseconds now) {
 
 /// An answer of the robot that still comes is dropped, so an Arm that was sent before a Stop does not undo it.
 void RequestArbiter::cancel_motion(SessionId by, std::uint8_t halt) {
-  const ErrorCode why = request_rules::stops(halt) ? ErrorCode::not_armed : ErrorCode::busy;
+  const ErrorCode why = protocol::stops(halt) ? ErrorCode::not_armed : ErrorCode::busy;
   for (auto& [id, session] : sessions_) {
     if (id == by || session.current() == nullptr) continue;
     const Header request = session.current()->header;

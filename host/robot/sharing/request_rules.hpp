@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/protocol/driving_rule.hpp"
 #include "common/protocol/messages.hpp"
 
 /// What a request means for the other programs at a port, by its message id.
@@ -17,9 +18,6 @@ constexpr bool is_one_of(std::uint8_t message, const std::array<std::uint8_t, N>
   return std::find(ids.begin(), ids.end(), message) != ids.end();
 }
 
-constexpr bool stops(std::uint8_t message) {
-  return is_one_of(message, std::array{EmergencyStop::kId, Stop::kId, Disarm::kId});
-}
 /// Requests that let the robot come to rest. They never wait for other programs, and they are never answered
 /// from memory.
 constexpr bool halts(std::uint8_t message) { return stops(message) || message == Pause::kId; }

@@ -24,7 +24,7 @@ void RobotQueue::send(Exchange& exchange, bool drivers, microseconds now) {
   exchange.state = Exchange::State::sent;
   exchange.sent_at = now;
   const std::uint8_t message = exchange.header.message_id;
-  const bool first = request_rules::stops(message);
+  const bool first = protocol::stops(message);
   if (first) frames_.withdraw();
   if (frames_.frames() >= (request_rules::halts(message) ? 2 : 1) * kMostQueuedFrames) return;
   first ? frames_.push_first(exchange.frame)
