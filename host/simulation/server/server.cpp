@@ -24,23 +24,31 @@ using namespace std::chrono_literals;
 // Of bytes that a host has not taken. Beyond that the robot's own queue fills, and it drops frames.
 constexpr std::size_t kMostOutgoing = 1U << 16;
 constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
-constexpr std::uint64_t kRunAhead_us = 100'000;  // virtual time that may pass after bytes from the host
-// The same while the robot drives. A sign of life between two velocities, or bytes of another program or of a relay, let time pass
+// How far virtual time may run ahead of a host in fast motion: for how long after its last bytes, and how many steps at once.
+struct Lead {
+  std::uint64_t silence_us;
+  int steps;  // of a millisecond, between two looks for bytes
+};
+constexpr Lead kLead{100'000, 50};
+// While the robot drives. A sign of life between two velocities, or bytes of another program or of a relay, let time pass
 // once more, which must not take the robot to its command time-out of 200 ms. More than 50 ms, after which drivers give a sign of life
 // by the robot's clock.
-constexpr std::uint64_t kRunAheadOfDriver_us = 70'000;
-// The same while a host regulates the motors' voltages itself, once in 20 ms at the slowest: what it decides must meet the robot that
+constexpr Lead kLeadOfDriver{70'000, 15};
+// While a host regulates the motors' voltages itself, once in 20 ms at the slowest: what it decides must meet the robot that
 // it has seen, or its loop swings on a busy machine as it would on no robot.
-constexpr std::uint64_t kRunAheadOfRegulator_us = 30'000;
-// The same in real time while the robot drives. The shortest command time-out is 200 ms.
+constexpr Lead kLeadOfRegulator{30'000, 1};
+// In real time: how long a driver may be silent while the robot drives. The shortest command time-out is 200 ms.
 constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
 // Turns of this server, each of a millisecond at least, for which a host may take no bytes, or send none, before time goes on
 // without it. On a busy machine a program gets no turn for some hundred milliseconds, and a robot that stops by its own time-out
 // then surprises its owner. Turns and not seconds, because a machine that gives the host no time gives this server little, too.
 // Fast motion promises nothing about real time, and a virtual machine may hold up one of its processors for some seconds.
 constexpr int kPatience = 1000, kPatienceInFastMotion = 10'000;
-constexpr int kStepsPerPoll = 50;  // virtual ms between two checks of the host while running ahead
-constexpr int kStepsPerPollOfDriver = 15, kStepsPerPollOfRegulator = 1;
+
+const Lead& lead(ServedRobot& robot) {
+  if (robot.is_regulated()) return kLeadOfRegulator;
+  return robot.drives() ? kLeadOfDriver : kLead;
+}
 
 sim::Config with_flash(sim::Config config, const fs::path& path) {
   config.flash = load_flash(path);
@@ -164,10 +172,7 @@ void Server::run(const std::function<bool()>& stop) {
     receive();
     const bool host_is_behind = transmit();
     if (runs_ahead(host_is_behind)) {
-      const int steps = robot_->is_regulated() ? kStepsPerPollOfRegulator
-                        : robot_->drives()     ? kStepsPerPollOfDriver
-                                               : kStepsPerPoll;
-      for (int i = 0; i < steps; ++i) step();
+      for (int i = lead(*robot_).steps; i > 0; --i) step();
       pace_.restart(Clock::now() + Pace::kStep);
     } else if (pace_.due(Clock::now())) {
       step();
@@ -212,8 +217,7 @@ bool Server::connected() const {
 bool Server::host_is_late() {
   const std::uint64_t silence_us = robot_->now_us() - last_heard_us_;
   if (!config_.fast) return silence_us >= kSilenceOfDriver_us && robot_->drives();
-  if (robot_->is_regulated()) return silence_us >= kRunAheadOfRegulator_us;
-  return silence_us >= (robot_->drives() ? kRunAheadOfDriver_us : kRunAhead_us);
+  return silence_us >= lead(*robot_).silence_us;
 }
 
 /// Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or has gone.
