@@ -208,14 +208,15 @@ WallEstimate estimate_wall(const WallDrive& drive, const calibration::WheelFacto
 std::optional<SquaringDoubt> doubt_about_squaring(const WallSeries& series, const WallEstimate& expected,
                                                   double further_m) {
   using Kind = SquaringDoubt::Kind;
-  constexpr double kFar = 6, kLeast_rad = 0.02, kMost_rad = 0.6, kLeast_m = 0.015;
+  constexpr double kDeviations = 6, kLeastAllowed_rad = 0.02, kMostAllowed_rad = 0.6, kLeastAllowed_m = 0.015;
   if (series.squarings.size() < 2) return std::nullopt;
   const WallNoise noise = cautious(expected.noise);
   const WheelTravel travel = series.squarings.back() - series.squarings[series.squarings.size() - 2];
   const Eigen::Vector2d& a = expected.headings.a;
   const double off_rad = std::remainder(a[0] * travel.right_m - a[1] * travel.left_m, kTurn_rad);
   const double variance = heading_variance(travel, expected.headings, noise);
-  const double allowed_rad = std::clamp(kFar * std::sqrt(variance), kLeast_rad, kMost_rad);
+  const double allowed_rad =
+      std::clamp(kDeviations * std::sqrt(variance), kLeastAllowed_rad, kMostAllowed_rad);
   if (std::abs(off_rad) > allowed_rad)
     return SquaringDoubt{
         Kind::turned, off_rad, allowed_rad,
@@ -224,8 +225,8 @@ std::optional<SquaringDoubt> doubt_about_squaring(const WallSeries& series, cons
                     "where {:.1f} would be usual",
                     degrees(std::abs(off_rad)), off_rad > 0 ? "more" : "less", degrees(allowed_rad))};
   // Slip along the way, and lines that the robot drove askew, each of them twice at the most.
-  const double allowed_m =
-      kLeast_m + kFar * std::sqrt(noise.K_m * travel.path_m() / 4) + travel.path_m() / 4 * variance;
+  const double allowed_m = kLeastAllowed_m + kDeviations * std::sqrt(noise.K_m * travel.path_m() / 4) +
+                           travel.path_m() / 4 * variance;
   if (std::abs(further_m) <= allowed_m) return std::nullopt;
   return SquaringDoubt{
       further_m < 0 ? Kind::too_early : Kind::too_late, further_m, allowed_m,

@@ -56,14 +56,14 @@ Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after) {
 }
 
 std::optional<int> runs_to_tell(const FigureOfMerit& before, const FigureOfMerit& after) {
-  constexpr int kMost = 100;
+  constexpr int kMostRuns = 100;
   if (!errors_known(before, after)) return std::nullopt;
   const auto with = [](FigureOfMerit figure, int runs) {
     figure.standard_error *= std::sqrt(static_cast<double>(figure.runs) / runs);
     figure.runs = runs;
     return figure;
   };
-  for (int runs = 2; runs <= kMost; ++runs)
+  for (int runs = 2; runs <= kMostRuns; ++runs)
     if (judge(with(before, runs), with(after, runs)) != Verdict::undecided) return runs;
   return std::nullopt;
 }

@@ -20,7 +20,7 @@ constexpr int kMostSteps = 30, kMostRounds = 40;
 constexpr Settled kSettled{1e-3, 0.002}, kRoughly{1, 0.1};
 constexpr double kLargestNoiseStep = 2;
 // If the cost is to fall by more, or by more than before while it is not near, a step of the unknowns may have to be damped.
-constexpr double kFar = 1e4, kNear = 100;
+constexpr double kFarFall = 1e4, kNearFall = 100;
 constexpr double kLargestK_m = 1e-2;
 constexpr int kMostPhases = 4;
 constexpr int kStretches = 4;  // a side of a square: what a spin winds up and lets go of cancels within it
@@ -191,9 +191,9 @@ void MlFit::fit_with_noise(const Settled& settled) {
     const double noise_moved = distance(state_.noise, noise);
     if (noise_moved < settled.noise && expected < settled.fall) return;
     state_.noise = noise;
-    const bool goes_wrong = expected > kNear && expected > before;
+    const bool goes_wrong = expected > kNearFall && expected > before;
     before = expected;
-    if (expected < kFar && !goes_wrong)
+    if (expected < kFarFall && !goes_wrong)
       take(steps);
     else
       maximise(settled);

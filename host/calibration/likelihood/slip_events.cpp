@@ -16,10 +16,10 @@ constexpr double kWindow_s = 0.5;
 constexpr std::size_t kFewestSamples = 8;  // with fewer, the median follows a single wrong one
 constexpr double kReach = 2;               // windows within which the samples of one median must lie
 constexpr double kStepsPerWindow = 10;     // moments that are examined
-constexpr double kLasting = 3;  // windows on either side after which an event must still be visible
-constexpr double kFar = 8;      // in standard deviations of all moments
-constexpr double kLeast_rad = 0.02;
-constexpr std::size_t kMost = 3;
+constexpr double kLasting = 3;        // windows on either side after which an event must still be visible
+constexpr double kFarDeviations = 8;  // in standard deviations of all moments
+constexpr double kLeastUnseen_rad = 0.02;
+constexpr std::size_t kMostEvents = 3;
 
 struct Parting {
   double time_s = 0;
@@ -150,7 +150,7 @@ class Moments {
 std::vector<SlipEvent> lasting(const Moments& moments, double start_s, std::vector<Parting> candidates) {
   std::vector<SlipEvent> found;
   const auto size = [](const Parting& parting) { return std::abs(parting.turned_rad); };
-  while (!candidates.empty() && found.size() < kMost) {
+  while (!candidates.empty() && found.size() < kMostEvents) {
     const Parting here = *std::max_element(candidates.begin(), candidates.end(),
                                            [&](const auto& a, const auto& b) { return size(a) < size(b); });
     const auto later_rad = moments.turned_rad(here.at, kLasting);
@@ -179,7 +179,7 @@ std::vector<std::vector<SlipEvent>> find_slip_events(std::span<const PreparedRun
   }
   std::vector<std::vector<SlipEvent>> found(runs.size());
   if (turned_rad.empty()) return found;
-  const double far_rad = std::max(kLeast_rad, kFar * deviation_of(turned_rad));
+  const double far_rad = std::max(kLeastUnseen_rad, kFarDeviations * deviation_of(turned_rad));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::erase_if(partings[i], [&](const Parting& each) { return std::abs(each.turned_rad) < far_rad; });
     if (!partings[i].empty())

@@ -62,9 +62,9 @@ class Search {
   /// By how much `one` explains the motion better, as twice a difference of log likelihoods.
   double advantage(const Candidate& one, const Candidate& other) const {
     const double samples = one.agreement.overlap_s / motion_.window().support_s();
-    constexpr double kLeast = 1e-12;  // rounding leaves less than this, or nothing, of a perfect match
-    return samples * std::log(std::max(kLeast, other.agreement.unexplained) /
-                              std::max(kLeast, one.agreement.unexplained));
+    constexpr double kRounding = 1e-12;  // rounding leaves less than this, or nothing, of a perfect match
+    return samples * std::log(std::max(kRounding, other.agreement.unexplained) /
+                              std::max(kRounding, one.agreement.unexplained));
   }
 
   double offset_s(const ClockGuess& guess) const {

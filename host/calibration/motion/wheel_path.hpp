@@ -16,8 +16,8 @@ namespace astro::calibration {
 /// Precondition: two samples at least, whose times do not decrease. Cost  constant next to `last`, logarithmic elsewhere.
 template <class Sample, class TimeOf>
 std::size_t interval_near(std::size_t& last, std::span<const Sample> samples, double time_s, TimeOf time_of) {
-  constexpr std::size_t kNear = 8;
-  for (std::size_t i = last; i < last + kNear && i + 1 < samples.size(); ++i)
+  constexpr std::size_t kTriedInOrder = 8;
+  for (std::size_t i = last; i < last + kTriedInOrder && i + 1 < samples.size(); ++i)
     if (time_of(samples[i]) <= time_s && time_s < time_of(samples[i + 1])) return last = i;
   const auto next =
       std::upper_bound(samples.begin() + 1, samples.end() - 1, time_s,

@@ -38,9 +38,9 @@ std::string keys_that_fit(console::TerminalSize terminal) {
 
 std::string gauge_that_fits(double fraction, std::size_t columns) {
   constexpr std::size_t kBeside = 37;  // columns of text on the same line
-  constexpr int kLeast = 2, kMost = 15;
+  constexpr int kLeastHalf = 2, kMostHalf = 15;
   const int half = static_cast<int>(columns > kBeside ? (columns - kBeside) / 2 : 0);
-  return half < kLeast ? "" : console::gauge(fraction, std::min(half, kMost)) + "  ";
+  return half < kLeastHalf ? "" : console::gauge(fraction, std::min(half, kMostHalf)) + "  ";
 }
 
 }  // namespace

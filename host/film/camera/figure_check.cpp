@@ -8,9 +8,9 @@ namespace {
 
 /// Takes a measurement out of what was found with it.
 Measured without(const Measured& measured, const Measured& found) {
-  constexpr double kLeast = 1e-5;  // of the variance: less is rounding, and nothing else shows the figure
+  constexpr double kRounding = 1e-5;  // of the variance: less is rounding, and nothing else shows the figure
   const double own = measured.sigma * measured.sigma, all = found.sigma * found.sigma;
-  if (own - all < kLeast * own) return {found.value, std::numeric_limits<double>::infinity()};
+  if (own - all < kRounding * own) return {found.value, std::numeric_limits<double>::infinity()};
   const double variance = all * own / (own - all);
   return {measured.value + (found.value - measured.value) * own / (own - all), std::sqrt(variance)};
 }

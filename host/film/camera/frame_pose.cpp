@@ -15,7 +15,7 @@ using Residual = Eigen::Matrix<double, 8, 1>;
 std::optional<FramePose> frame_pose(const Scene& scene, const TagCorners& seen, const RobotPose& start,
                                     const RobotVelocity& velocity) {
   constexpr int kMostSteps = 12;
-  constexpr double kStep = 1e-6, kSettled = 1e-8, kFar = 1.5;  // m and rad
+  constexpr double kStep = 1e-6, kSettled = 1e-8, kFarthest = 1.5;  // m and rad
   Vector3d at(start.x_m, start.y_m, start.theta_rad);
   const Vector3d begin = at;
   const auto residual = [&](const Vector3d& p) {
@@ -33,7 +33,7 @@ std::optional<FramePose> frame_pose(const Scene& scene, const TagCorners& seen, 
     const Eigen::Matrix3d information = jacobian.transpose() * jacobian;
     const Vector3d step = -information.ldlt().solve(jacobian.transpose() * r);
     at += step;
-    if (!at.allFinite() || !((at - begin).norm() < kFar)) return std::nullopt;
+    if (!at.allFinite() || !((at - begin).norm() < kFarthest)) return std::nullopt;
     if (step.norm() > kSettled) continue;
     return FramePose{{at[0], at[1], at[2]}, residual(at).norm() / std::sqrt(8.0), information.inverse()};
   }

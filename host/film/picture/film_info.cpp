@@ -112,12 +112,13 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
   info.duration_s = duration_of(fields);
   info.frames = static_cast<std::size_t>(std::max(0.0, number_of(fields, "nb_frames")));
   // No phone has more than 8K, 7680 x 4320. To look for tags takes ten bytes for each pixel.
-  constexpr int kLeast = 64, kMost = 8192;
-  if (info.width < kLeast || info.height < kLeast || info.width > kMost || info.height > kMost)
+  constexpr int kLeastSide_px = 64, kMostSide_px = 8192;
+  if (info.width < kLeastSide_px || info.height < kLeastSide_px || info.width > kMostSide_px ||
+      info.height > kMostSide_px)
     throw Error(
         fmt::format("'{}' has pictures of {} x {} pixels, and those with {} to {} pixels on each side can "
                     "be followed: name the film that the phone recorded (MP4 or MOV)",
-                    film.string(), info.width, info.height, kLeast, kMost));
+                    film.string(), info.width, info.height, kLeastSide_px, kMostSide_px));
   return info;
 }
 

@@ -13,7 +13,7 @@ struct FloorLook {
   std::vector<std::optional<TagCorners>> tags;  // in the order of the scene's tags
 };
 
-/// How the picture has moved since the mean of the film: pixels of something that stands, by how much they are off.
+/// How far the picture has moved from its mean position over the film: the shift, in pixels, of things that do not move.
 struct PictureMotion {
   double pts_s = 0;
   Eigen::Vector2d shift_px{0, 0};   // at `about`
@@ -26,8 +26,8 @@ struct PictureMotion {
 /// The floor tags over a whole film: where they are on average, and how the picture moved against that.
 struct CameraMotion {
   std::vector<TagCorners> means;      // of each tag
-  std::vector<std::size_t> seen;      // in how many looks
-  std::vector<PictureMotion> course;  // smoothed; empty if there are too few looks
+  std::vector<std::size_t> seen;      // in how many pictures
+  std::vector<PictureMotion> course;  // smoothed; empty if the floor was seen in too few pictures
   double most_px = 0;                 // of the smoothed shift, against the beginning
   double most_at_s = 0;               // when it was half that far for the first time
   double shake_px = 0;                // rms of what smoothing takes away
@@ -38,7 +38,7 @@ struct CameraMotion {
 
 /// A slow sag is followed and taken out of the corners; whether it may be is for the caller to judge.
 ///
-/// `start`  where the tags are about, for those that were never looked at
+/// `start`  approximate corners, used for tags that no picture of the floor shows
 CameraMotion camera_motion(const std::vector<FloorLook>& looks, const std::vector<TagCorners>& start);
 
 }  // namespace astro::film

@@ -176,9 +176,9 @@ std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit
   if (!fit) return std::nullopt;
   const double floor = fit->scene.floor_side_m / *given.floor_side_m,
                robot = fit->scene.robot_side_m / *given.robot_side_m;
-  constexpr double kLeast = 0.85, kMost = 1.01;  // printers shrink to fit a page
+  constexpr double kLeastPrinted = 0.85, kMostPrinted = 1.01;  // printers shrink to fit a page
   const double mean = (floor + robot) / 2;
-  if (std::abs(floor - robot) > kSame || mean < kLeast || mean > kMost) return std::nullopt;
+  if (std::abs(floor - robot) > kSame || mean < kLeastPrinted || mean > kMostPrinted) return std::nullopt;
   return Explanation{fmt::format("all tags are printed at {:.1f} % of the sides that were given", 100 * mean),
                      false};
 }

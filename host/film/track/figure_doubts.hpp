@@ -10,8 +10,8 @@
 #include "host/film/camera/scene_fit.hpp"
 #include "host/film/track/film_figures.hpp"
 
-/// A figure that somebody mistyped, measured at the wrong place or gave for another one bends camera and scale, and shows only in that
-/// the others contradict it.
+/// A figure that somebody mistyped, measured at the wrong place or gave for another one falsifies the camera and the scale. It
+/// can only be recognised because it contradicts the other figures.
 namespace astro::film {
 
 /// What is wrong with the figures that people give for a film.
@@ -24,14 +24,14 @@ enum class FilmProblem {
   unusual_height
 };
 
-/// The figures that a person gave, each against all else.
+/// Compares each figure that a person gave with the value that all others predict.
 std::vector<FigureCheck> given_figures(const FilmFigures& given, const SceneFit& fit);
 
-/// By how much the error of the scale grows because what was measured agrees badly: 1 up to two standard errors, then as many as they are.
+/// The factor by which the standard error of the scale grows because what was measured agrees badly: 1 up to two standard errors, then as many as they are.
 double growth_of_error(const std::vector<FigureCheck>& checks);
 
-/// A side that nobody gave, and that by what was given is not as it is printed: the sheets are of another size, or what was given is wrong, which
-/// nothing tells apart.
+/// The side of a tag that nobody gave, and that does not have its printed size according to the given figures. Either the sheets were
+/// printed in another size, or a given figure is wrong; the film cannot tell which.
 struct UnusualSide {
   FigureKind kind = FigureKind::floor_side;
   double usual_m = 0, found_m = 0;
@@ -42,10 +42,10 @@ struct UnusualSide {
 std::vector<UnusualSide> unusual_sides(const FilmFigures& given, const Scene& scene);
 
 struct FigureDoubt {
-  /// Which figure it is as far as the film shows it, and what it would be by all else; "" if unusual_sides() says it.
+  /// Names the figure, as far as the film shows which one it is, and the value that the others predict; "" if unusual_sides() says it.
   Remark remark;
-  bool gross = false;   // no measurement is so bad: a mistake, with which nothing should be computed
-  FilmFigures figures;  // with which to go on: those that were given, perhaps without what is usual
+  bool gross = false;   // too far off for a bad measurement: a mistake, so nothing should be computed with it
+  FilmFigures figures;  // to go on with: the given ones, perhaps without those that are assumed
   std::optional<SceneFit> fit = {};  // of these, if they are not those that were given
 };
 

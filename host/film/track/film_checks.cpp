@@ -105,8 +105,8 @@ bool lies_on_floor(const FloorSurvey& survey, int id) {
 /// The only other tag that moves, if the robot's never does.
 std::optional<int> moves_instead(const FloorSurvey& survey) {
   constexpr double kStill_px = 4;
-  constexpr std::size_t kLeast = 3;
-  if (survey.robot.size() < kLeast || survey.moving.size() != 1) return std::nullopt;
+  constexpr std::size_t kLeastSightings = 3;
+  if (survey.robot.size() < kLeastSightings || survey.moving.size() != 1) return std::nullopt;
   const TagCorners& first = survey.robot.front().corners;
   const bool still = std::all_of(survey.robot.begin(), survey.robot.end(), [&](const FloorSurvey::Seen& one) {
     double furthest_px = 0;
@@ -206,12 +206,12 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
     throw Error(fmt::format("{}: the robot's tag is too small in the picture: {:.0f} px, and 20 are needed",
                             quoted(film), side) +
                 how_to::kNearer);
-  constexpr std::size_t kLeast = 30;
-  if (sightings.pictures < kLeast)
+  constexpr std::size_t kLeastPictures = 30;
+  if (sightings.pictures < kLeastPictures)
     throw Error(
         fmt::format("{} is too short: {} pictures in {:.1f} s", quoted(film), sightings.pictures, decoded_s) +
         how_to::kToTheEnd);
-  if (sightings.robot.size() < kLeast)
+  if (sightings.robot.size() < kLeastPictures)
     throw Error(fmt::format("{}: the robot's tag is seen in {} of {} pictures only", quoted(film),
                             sightings.robot.size(), sightings.pictures) +
                 how_to::kWholeField);
@@ -277,12 +277,12 @@ bool drives_out(const FilmTrack& track, const HiddenSpan& span) {
 
 /// Before the tag is seen first and after it is seen last, nothing is said of a robot that stands.
 void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMostSaid = 5;
   std::size_t said = 0, more = 0;
   for (const HiddenSpan& span : track.hidden) {
     const bool at_end = span.from_s == track.sightings.first_s || span.to_s == track.sightings.last_s;
     if (at_end && !drives_out(track, span)) continue;
-    if (++said > kMost) {
+    if (++said > kMostSaid) {
       ++more;
       continue;
     }

@@ -8,25 +8,25 @@
 #include "host/film/track/film_track.hpp"
 #include "host/film/track/floor_survey.hpp"
 
-/// What makes a film useless, each as one error that says where, and what a person should know about a film that is of use.
+/// Throws an error that says where for each defect that makes a film useless, and collects remarks on a film that can be used.
 namespace astro::film {
 
-/// No tag of the robot, or of the floor, in the key pictures; two robots.
+/// Refuses a film whose key pictures show no tag of the robot, no tag on the floor, or two robots.
 void refuse_survey(const std::filesystem::path& film, const FilmInfo& info, const FloorSurvey& survey,
                    const FilmFigures& figures);
 
-/// The film ends early; the robot's tag is hardly ever seen, small or blurred.
+/// Refuses a film that ends early, or in which the robot's tag is hardly ever seen, is too small, or is blurred.
 void refuse_sightings(const std::filesystem::path& film, const FilmInfo& info, const FloorSurvey& survey,
                       const FilmSightings& sightings);
 
-/// The camera moves, or the picture does.
+/// Refuses a film whose camera was moved, or whose picture shakes.
 void refuse_motion(const std::filesystem::path& film, const CameraMotion& motion);
 
-/// The floor tags do not lie on one plane; the robot jumps, as where a film was cut.
+/// Refuses a film whose floor tags do not lie on one plane, or in which the robot jumps, as where a film was cut.
 void refuse_track(const std::filesystem::path& film, const FilmTrack& track);
 
-/// Where the robot drives out of the picture for more than a second. One that is carried out of it fits no place on the floor, and
-/// is none of this.
+/// Says where the robot drives out of the picture for more than a second. A robot that is lifted and carried out does not count: its
+/// tag leaves the floor, so its last poses do not fit the scene.
 std::optional<Remark> departure(const std::filesystem::path& film, const FilmTrack& track);
 
 std::vector<Remark> remarks_on(const FilmTrack& track, const FloorSurvey& survey);

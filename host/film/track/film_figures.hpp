@@ -16,8 +16,8 @@ struct FilmFigures {
     double length_m = 0;   // from centre to centre
   };
   std::vector<Length> tapes;
-  /// What is not given is taken to be about as the sheets are printed, the robot's tag to be about 0.12 m high; false: hardly anything is
-  /// taken of it.
+  /// True: a figure that is not given has a prior, the printed size of the sheets or a height of 0.12 m. False: the priors are so wide
+  /// that they decide nothing.
   bool as_usual = true;
   double readout_s = 0.02;  // from the first row to the last; negative if the last row is read first
 

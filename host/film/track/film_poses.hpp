@@ -17,12 +17,12 @@ struct FilmPose {
   RobotVelocity velocity;  // from neighbouring pictures
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  // of x, y and theta; errors of neighbouring pictures are alike
-  double rms_px = 0;            // of what remains of the corners
+  double rms_px = 0;            // residual of the corners
 };
 
 struct FilmPoses {
   std::vector<FilmPose> poses;
-  double corner_px = 0;     // standard error of a corner's coordinate, from what remains
+  double corner_px = 0;     // standard error of a corner's coordinate, from the residuals
   std::size_t dropped = 0;  // pictures whose corners fit no tag: half hidden, or blurred
 };
 

@@ -9,7 +9,7 @@
 
 namespace astro::film {
 
-/// The figures with their standard errors, as a ruler has them; those that nobody gave as the sheets are printed, with errors so
+/// The figures with the standard errors of a ruler. Those that nobody gave have the printed sizes, with standard errors so
 /// large that they decide nothing.
 Figures figures_with_errors(const FilmFigures& given);
 

@@ -21,12 +21,13 @@ struct Acknowledgement {
 /// Numbers the acknowledgements of each reader to each writer as they come. It remembers so many pairs; any thread may ask.
 class AcknowledgementCounts {
  public:
-  static constexpr std::size_t kMost = 10'000;
+  static constexpr std::size_t kMostPairs = 10'000;
 
   /// Greater than all that it has given for this pair.
   std::uint32_t next(const Acknowledgement& pair) {
     const std::lock_guard lock(mutex_);
-    if (given_.size() >= kMost && !given_.contains(pair)) given_.clear();  // and all go on above the highest
+    if (given_.size() >= kMostPairs && !given_.contains(pair))
+      given_.clear();  // and all go on above the highest
     std::uint32_t& count = given_.try_emplace(pair, highest_).first->second;
     highest_ = std::max(highest_, ++count);
     return count;

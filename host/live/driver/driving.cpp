@@ -21,8 +21,9 @@ bool all_finite(const ros2::msg::Vector3& v) {
 /// What a message to the robot can hold and no robot can do: faster commands keep their curvature, as the robot keeps it when
 /// it reduces a command to its limits.
 protocol::Velocity to_velocity(double v_mps, double omega_radps) {
-  constexpr double kMost = 2000;
-  const double share = std::min(1.0, kMost / std::max({std::abs(v_mps), std::abs(omega_radps), 1.0}));
+  constexpr double kMostInMessage = 2000;
+  const double share =
+      std::min(1.0, kMostInMessage / std::max({std::abs(v_mps), std::abs(omega_radps), 1.0}));
   const auto micro = [&](double value) {
     return static_cast<std::int32_t>(std::lround(1e6 * share * value));
   };

@@ -19,8 +19,8 @@ constexpr std::uint8_t kPublish = 1, kServiceCall = 2;
 
 /// For a sentence about it: as much of what came as helps to find it.
 std::string excerpt(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  return text.size() <= kMost ? std::string(text) : std::string(text.substr(0, kMost)) + "...";
+  constexpr std::size_t kMostShown = 40;
+  return text.size() <= kMostShown ? std::string(text) : std::string(text.substr(0, kMostShown)) + "...";
 }
 
 const json& member(const json& object, const char* name) {

@@ -126,12 +126,12 @@ void settle_mirror(std::vector<FloorPoint>& points, const FloorChoices& choices,
 
 void settle_units(std::vector<FloorPoint>& points, const BodyTrack& track,
                   std::span<const WheelMotion> wheels, const FloorChoices& choices, FloorFindings& findings) {
-  constexpr double kShortest_m = 0.1, kNear = 2.5;
+  constexpr double kShortest_m = 0.1, kSameUnit = 2.5;
   const double path_m = path_length(points);
   findings.wheels_path_m = path_length(wheels);
   if (findings.wheels_path_m > kShortest_m) findings.length_ratio = path_m / findings.wheels_path_m;
   for (const double ratio : {1000.0, 100.0, 0.01, 0.001}) {
-    if (findings.length_ratio > ratio / kNear && findings.length_ratio < ratio * kNear)
+    if (findings.length_ratio > ratio / kSameUnit && findings.length_ratio < ratio * kSameUnit)
       findings.unit_ratio = ratio;
   }
   const bool stated = !track.facts.length_unit.empty();

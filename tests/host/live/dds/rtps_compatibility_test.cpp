@@ -59,7 +59,7 @@ TEST(Compatibility, CountsGrowHoweverManyReadersThereHaveBeen) {
   EXPECT_EQ(counts.next(kPair), 1U);
   EXPECT_EQ(counts.next(kPair), 2U);
   Acknowledgement stranger = kPair;
-  for (std::size_t i = 0; i < AcknowledgementCounts::kMost; ++i) {
+  for (std::size_t i = 0; i < AcknowledgementCounts::kMostPairs; ++i) {
     store<std::size_t>(stranger.reader.bytes, 0, i);
     counts.next(stranger);
   }
