@@ -109,7 +109,9 @@ void ChildProcess::take_words() {
 
 void ChildProcess::fail_silent() const {
   throw Error("the program '" + name_ + "', which reads films, has neither said anything nor ended for " +
-              std::to_string(patience_.count()) + " ms: name the film that the phone recorded (MP4 or MOV)");
+                  std::to_string(patience_.count()) +
+                  " ms: name the film that the phone recorded (MP4 or MOV)",
+              ChildProblem::silent, {name_, std::to_string(patience_.count())});
 }
 
 void ChildProcess::wait_for_streams() {

@@ -13,6 +13,9 @@
 
 namespace astro::film {
 
+/// What is wrong with another program. Values: its name, and for how many milliseconds.
+enum class ChildProblem { silent };
+
 /// A program that runs beside this one: its output as bytes, what it says on its error stream as lines. The destructor ends it.
 ///
 /// Threads  one. Both streams are read together, so that neither can block the program.

@@ -36,7 +36,9 @@ TagDetector::~TagDetector() = default;
 std::vector<DetectedTag> TagDetector::detect(const GrayFrame& frame, const Window& window, double decimate) {
   if (std::max(window.width, window.height) > kLongestSide_px)
     throw Error("tags cannot be looked for in a picture of " + std::to_string(window.width) + " x " +
-                std::to_string(window.height) + " pixels");
+                    std::to_string(window.height) + " pixels",
+                DetectorProblem::picture_too_large,
+                {std::to_string(window.width), std::to_string(window.height)});
   // The library reads beyond a picture that is smaller than one of its tiles.
   if (std::min(window.width, window.height) < kTagCells * decimate) return {};
   // The library reads only, but its type has no const. Its rows need no copy: the stride is that of the whole picture.

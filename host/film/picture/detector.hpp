@@ -21,6 +21,9 @@ struct Window {
 
 inline Window whole_of(const GrayFrame& frame) { return {0, 0, frame.width, frame.height}; }
 
+/// What is wrong with a picture. Values: its width and height.
+enum class DetectorProblem { picture_too_large };
+
 /// Finds tags of the family tag36h11 with libapriltag.
 ///
 /// Cost     1080p, one core: 170 ms with decimate 1, 43 ms with 2; of a window in proportion. With decimate 2 tags whose short

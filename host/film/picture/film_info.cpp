@@ -70,7 +70,8 @@ bool begins_as_film(const std::filesystem::path& film) {
                 "' is a truncated film: its table of pictures, which a camera writes last, is missing" +
                 how_to::kTakeOriginal);
   throw Error("'" + film.string() +
-              "' is not a film that ffprobe can read: name the film that the phone recorded (MP4 or MOV)");
+                  "' is not a film that ffprobe can read: name the film that the phone recorded (MP4 or MOV)",
+              FilmFileProblem::not_a_film, {film.string()});
 }
 
 }  // namespace
@@ -118,7 +119,9 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
     throw Error(
         fmt::format("'{}' has pictures of {} x {} pixels, and those with {} to {} pixels on each side can "
                     "be followed: name the film that the phone recorded (MP4 or MOV)",
-                    film.string(), info.width, info.height, kLeastSide_px, kMostSide_px));
+                    film.string(), info.width, info.height, kLeastSide_px, kMostSide_px),
+        FilmFileProblem::unusual_size,
+        {film.string(), std::to_string(info.width), std::to_string(info.height)});
   return info;
 }
 

@@ -8,6 +8,9 @@
 
 namespace astro::film {
 
+/// What is no film that can be followed. Values: the file; its pictures' width and height.
+enum class FilmFileProblem { not_a_film, unusual_size };
+
 /// What the container of a film says.
 struct FilmInfo {
   int width = 0, height = 0;  // as the sensor is read: not turned upright

@@ -121,10 +121,32 @@ bool is_gross(const FilmFigures& given, const Correction& one) {
   return far && without(given, one.figure).scale_measured();
 }
 
-std::string clause(const FilmFigures& given, const Correction& one) {
-  return fmt::format("{} is {} and not {}", name_of(given, one.figure), length(one.value_m),
-                     length(one.figure.measured.value));
+struct Explanation {
+  std::string clause;
+  std::vector<std::string> values;  // in the clause
+  bool gross;
+};
+
+Explanation by_figure(const FilmFigures& given, const Correction& one) {
+  const std::string name = name_of(given, one.figure), found = length(one.value_m),
+                    stated = length(one.figure.measured.value);
+  return {
+      fmt::format("{} is {} and not {}", name, found, stated), {name, found, stated}, is_gross(given, one)};
 }
+
+/// All of them with `joint` between, as a remark that `begins` so.
+Remark together(const std::string& begins, const std::vector<Explanation>& all, const char* joint,
+                FilmProblem kind) {
+  std::vector<std::string> clauses, values;
+  for (const Explanation& one : all) {
+    clauses.push_back(one.clause);
+    values.insert(values.end(), one.values.begin(), one.values.end());
+  }
+  return {fmt::format("{}{}: measure that again, or leave it out", begins, fmt::join(clauses, joint)), kind,
+          std::move(values)};
+}
+
+bool all_gross(const std::vector<Explanation>& all) { return std::ranges::all_of(all, &Explanation::gross); }
 
 /// What nobody gave is not as usual: goes on without what is usual. unusual_sides() speaks of the sides.
 std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit) {
@@ -145,13 +167,16 @@ std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit)
   return doubt;
 }
 
-std::optional<std::string> exchange(const FilmFigures& given, const Refit& refit) {
-  const auto try_pair = [&](FigureMember a, FigureMember b, const char* names) -> std::optional<std::string> {
+std::optional<Remark> exchange(const FilmFigures& given, const Refit& refit) {
+  const auto try_pair = [&](FigureMember a, FigureMember b, const char* names) -> std::optional<Remark> {
     if (!(given.*a) || !(given.*b)) return std::nullopt;
     FilmFigures other = given;
     std::swap(other.*a, other.*b);
     if (!agreeing_fit(other, refit)) return std::nullopt;
-    return fmt::format("{}, {} and {}, are exchanged", names, length(*(given.*a)), length(*(given.*b)));
+    const std::string first = length(*(given.*a)), second = length(*(given.*b));
+    return Remark{fmt::format("{}, {} and {}, are exchanged", names, first, second),
+                  FilmProblem::figures_exchanged,
+                  {names, first, second}};
   };
   if (auto sides = try_pair(&FilmFigures::robot_side_m, &FilmFigures::floor_side_m,
                             "the sides of the robot's tag and of the floor tags"))
@@ -159,11 +184,6 @@ std::optional<std::string> exchange(const FilmFigures& given, const Refit& refit
   return try_pair(&FilmFigures::robot_side_m, &FilmFigures::robot_height_m,
                   "side and height of the robot's tag");
 }
-
-struct Explanation {
-  std::string clause;
-  bool gross;
-};
 
 /// Both sides are wrong by one factor, as a printer scales.
 std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit& refit) {
@@ -179,37 +199,29 @@ std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit
   constexpr double kLeastPrinted = 0.85, kMostPrinted = 1.01;  // printers shrink to fit a page
   const double mean = (floor + robot) / 2;
   if (std::abs(floor - robot) > kSame || mean < kLeastPrinted || mean > kMostPrinted) return std::nullopt;
-  return Explanation{fmt::format("all tags are printed at {:.1f} % of the sides that were given", 100 * mean),
-                     false};
+  const std::string percent = fmt::format("{:.1f}", 100 * mean);
+  return Explanation{
+      fmt::format("all tags are printed at {} % of the sides that were given", percent), {percent}, false};
 }
 
 std::vector<Explanation> explanations(const FilmFigures& given, const std::vector<FigureCheck>& checks,
                                       const Refit& refit) {
   std::vector<Explanation> all;
   for (const FigureCheck& figure : checks)
-    if (const auto fit = agreeing_fit(without(given, figure), refit)) {
-      const Correction one{figure, value_in(fit->scene, given, figure)};
-      all.push_back({clause(given, one), is_gross(given, one)});
-    }
+    if (const auto fit = agreeing_fit(without(given, figure), refit))
+      all.push_back(by_figure(given, {figure, value_in(fit->scene, given, figure)}));
   if (const auto smaller = printed_smaller(given, refit)) all.push_back(*smaller);
   return all;
 }
 
 /// No single figure explains it.
 FigureDoubt several(const FilmFigures& given, const std::vector<FigureCheck>& checks) {
-  std::vector<std::string> clauses;
-  bool gross = true;
-  for (const FigureCheck& figure : checks) {
-    if (figure.off() < kDoubtful) continue;
-    const Correction one{figure, figure.by_others.value};
-    clauses.push_back(clause(given, one));
-    gross = gross && is_gross(given, one);
-  }
-  return {{fmt::format("at least two of what was measured are wrong; each by all else, {}: measure that "
-                       "again, or leave it out",
-                       fmt::join(clauses, ", "))},
-          gross,
-          given};
+  std::vector<Explanation> all;
+  for (const FigureCheck& figure : checks)
+    if (figure.off() >= kDoubtful) all.push_back(by_figure(given, {figure, figure.by_others.value}));
+  return {together("at least two of what was measured are wrong; each by all else, ", all, ", ",
+                   FilmProblem::several_figures_wrong),
+          all_gross(all), given};
 }
 
 }  // namespace
@@ -247,20 +259,15 @@ std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const S
   if (auto other = unusual(given, refit)) return other;
   const std::vector<Explanation> all = explanations(given, checks, refit);
   if (all.size() != 1)
-    if (const auto exchanged = exchange(given, refit)) return FigureDoubt{{*exchanged}, true, given};
+    if (const auto exchanged = exchange(given, refit)) return FigureDoubt{*exchanged, true, given};
   if (all.empty() && (!robot_fits || off < kDoubtful)) return std::nullopt;  // no figure is to blame
   if (all.empty()) return several(given, checks);
-  std::vector<std::string> clauses;
-  bool gross = true;
-  for (const Explanation& one : all) {
-    clauses.push_back(one.clause);
-    gross = gross && one.gross;
-  }
-  const std::string fact = all.size() == 1 ? "by the film and all else that was measured, " + clauses.front()
-                                           : fmt::format("what was measured contradicts itself: either {}",
-                                                         fmt::join(clauses, ", or "));
+  const Remark remark = all.size() == 1 ? together("by the film and all else that was measured, ", all, "",
+                                                   FilmProblem::figure_wrong)
+                                        : together("what was measured contradicts itself: either ", all,
+                                                   ", or ", FilmProblem::figures_contradict);
   // Without the robot's tag nothing can be computed.
-  return FigureDoubt{{fact + ": measure that again, or leave it out"}, gross || !robot_fits, given};
+  return FigureDoubt{remark, all_gross(all) || !robot_fits, given};
 }
 
 }  // namespace astro::film

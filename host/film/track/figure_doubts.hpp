@@ -14,14 +14,25 @@
 /// can only be recognised because it contradicts the other figures.
 namespace astro::film {
 
-/// What is wrong with the figures that people give for a film.
+/// What is wrong with the figures that people give for a film. Values:
+///   distance_to_...        the pair of tags as "1:4"
+///   other_tag_moves        its number
+///   figure_wrong           the figure, what it is by all else, and what was given
+///   figures_contradict     the same of each that may be wrong; of all tags the percentage at which they may
+///                          be printed
+///   several_figures_wrong  the same of each that is off
+///   figures_exchanged      both figures, and what was given for each
 enum class FilmProblem {
   distance_to_robot,
   distance_to_unseen_tag,
   other_tag_moves,
   no_distance,
   no_height,
-  unusual_height
+  unusual_height,
+  figure_wrong,
+  figures_contradict,
+  several_figures_wrong,
+  figures_exchanged
 };
 
 /// Compares each figure that a person gave with the value that all others predict.

@@ -48,8 +48,9 @@ void refuse_twins(std::span<const DriveFiles> files) {
     for (std::size_t j = 0; j < i; ++j)
       if (fs::weakly_canonical(files[i].wheels) == fs::weakly_canonical(files[j].wheels))
         throw Error("'" + files[i].wheels.string() +
-                    "' is given twice, and a drive that counts twice would seem more certain than it is: "
-                    "name another file");
+                        "' is given twice, and a drive that counts twice would seem more certain than it is: "
+                        "name another file",
+                    ImportProblem::given_twice, {files[i].wheels.string()});
 }
 
 /// A copy under another name would count twice as well.
@@ -64,8 +65,10 @@ void refuse_copy(const recording::Run& run, std::span<const recording::Run> othe
   for (std::size_t i = 0; i < others.size(); ++i)
     if (std::ranges::equal(run.odometry, others[i].odometry, same_wheels) &&
         std::ranges::equal(run.truth, others[i].truth, same_truth))
-      throw Error("'" + name + "' is a copy of '" + names[i] +
-                  "', and a drive that counts twice would seem more certain than it is: name another file");
+      throw Error(
+          "'" + name + "' is a copy of '" + names[i] +
+              "', and a drive that counts twice would seem more certain than it is: name another file",
+          ImportProblem::copy_of_other, {name, names[i]});
 }
 
 constexpr std::size_t kLongestDescription = 4
@@ -168,27 +171,27 @@ std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometryS
 void settle_direction(const std::string& name, const truth::FloorFindings& findings,
                       std::vector<Remark>& remarks) {
   constexpr double kClear_m = 0.03;  // more than a tracker's origin is off its floor
+  const std::string distance = fmt::format("{:.2f}", -findings.height_m);
   // Exchanged wheels under an axis that points down turn as they should.
   if (!findings.turns_against_wheels && !findings.up_given && findings.height_m < -kClear_m)
     throw Error(
         fmt::format(
-            "'{}': the body is {:.2f} m below the tracker's origin, so the axis that seems to point up "
-            "may point down and the wheels may be exchanged",
-            name, -findings.height_m),
-        ImportProblem::below_origin);
+            "'{}': the body is {} m below the tracker's origin, so the axis that seems to point up may point "
+            "down and the wheels may be exchanged",
+            name, distance),
+        ImportProblem::below_origin, {name, distance});
   if (!findings.turns_against_wheels) return;
   const std::string fact = "'" + name + "': the wheels turn the robot the other way than the ground truth";
-  if (findings.up_given) throw Error(fact, ImportProblem::turns_against_stated_up);
+  if (findings.up_given) throw Error(fact, ImportProblem::turns_against_stated_up, {name});
   if (findings.height_m > kClear_m) {
     remarks.push_back({"the wheels show that the tracker's axis that seems to point up points down"});
     return;
   }
   if (findings.height_m < -kClear_m)
-    throw Error(
-        fmt::format("{}, and the body is {:.2f} m above the tracker's origin", fact, -findings.height_m),
-        ImportProblem::turns_against_wheels);
+    throw Error(fmt::format("{}, and the body is {} m above the tracker's origin", fact, distance),
+                ImportProblem::turns_against_wheels, {name, distance});
   throw Error(fact + ", and nothing shows which of the two is a mirror image",
-              ImportProblem::turns_against_wheels);
+              ImportProblem::turns_against_wheels, {name});
 }
 
 /// Samples in a second, from the first to the last.

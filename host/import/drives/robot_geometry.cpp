@@ -55,7 +55,8 @@ RobotGeometry of_parameters(const fs::path& path) {
     const double* value = std::get_if<double>(&found->second);
     if (value == nullptr || !(*value > 0))
       throw Error(fmt::format("'{}': [parameters] {} is not a number above 0: correct or replace it",
-                              path.string(), name));
+                              path.string(), name),
+                  ImportProblem::size_not_above_zero, {path.string(), name});
     return *value;
   };
   RobotGeometry geometry;

@@ -11,9 +11,21 @@
 
 namespace astro::importing {
 
-/// What keeps a drive of another program from being taken.
+/// What keeps a drive of another program from being taken, or is not used of it. Values:
+///   size_not_above_zero      the file and the parameter
+///   given_twice              the file of the wheels
+///   copy_of_other            both drives
+///   turns_too_far, leaps     the drive, of a leap the metres, and the times in seconds before and after
+///   below_origin             the drive, and by how many metres
+///   turns_against_wheels     the drive, and by how many metres the body is above the tracker's origin if it
+///                            clearly is
+///   turns_against_stated_up  the drive
 enum class ImportProblem {
+  size_not_above_zero,
   sizes_not_described,
+  sizes_not_used,
+  given_twice,
+  copy_of_other,
   no_wheelbase,
   no_wheel_diameter,
   no_counts_per_turn,

@@ -64,19 +64,20 @@ void refuse_leaps(const std::string& name, const WheelTrack& track, const Counte
     const double counts = most * counter.counts_per_unit;
     const double from_s = 1e-9 * static_cast<double>(from.time_ns),
                  to_s = 1e-9 * static_cast<double>(to.time_ns);
-    if (!(counts < kMostTurns * counter.wheel.counts_per_turn))
-      throw Error(
-          fmt::format("'{}': a wheel turns more than {} times between the samples at {:.3f} s and {:.3f} s",
-                      name, kMostTurns, from_s, to_s),
-          ImportProblem::turns_too_far);
     const double way_m = counts * counter.wheel.metres_per_count();
-    if (way_m > kAtOnce_m + kMost_mps * (to_s - from_s))
-      throw Error(
-          fmt::format(
-              "'{}': a wheel leaps by {:.2f} m between the samples at {:.3f} s and {:.3f} s, as where "
-              "a counter starts again",
-              name, way_m, from_s, to_s),
-          ImportProblem::leaps);
+    const bool too_far = !(counts < kMostTurns * counter.wheel.counts_per_turn);
+    if (!too_far && !(way_m > kAtOnce_m + kMost_mps * (to_s - from_s))) continue;
+    const std::string before = fmt::format("{:.3f}", from_s), after = fmt::format("{:.3f}", to_s),
+                      way = fmt::format("{:.2f}", way_m);
+    if (too_far)
+      throw Error(fmt::format("'{}': a wheel turns more than {} times between the samples at {} s and {} s",
+                              name, kMostTurns, before, after),
+                  ImportProblem::turns_too_far, {name, before, after});
+    throw Error(
+        fmt::format("'{}': a wheel leaps by {} m between the samples at {} s and {} s, as where a counter "
+                    "starts again",
+                    name, way, before, after),
+        ImportProblem::leaps, {name, way, before, after});
   }
 }
 
@@ -161,7 +162,8 @@ void remark_on_unused(const RobotGeometry& given, const RobotGeometry& used, std
   remarks.push_back(
       {fmt::format("its own recording knows the robot (wheels of {:.4g} m, {:.6g} counts per turn, wheelbase "
                    "{:.4g} m), and the sizes that were given are not used",
-                   *used.wheel_diameter_m, *used.counts_per_turn, *used.wheelbase_m)});
+                   *used.wheel_diameter_m, *used.counts_per_turn, *used.wheelbase_m),
+       ImportProblem::sizes_not_used});
 }
 
 /// Samples in a second, from the first to the last.

@@ -64,36 +64,38 @@ struct Pace {
   }
 };
 
-/// How often the wheel passed the end of the range between two samples, forwards counted positive. `who` is for errors.
+/// How often the wheel passed the end of the range between two samples, forwards counted positive. `name` and
+/// `side` are for errors.
 double passes_between(const WheelSample& from, const WheelSample& to, Wheel wheel, const Range& range,
-                      const Pace& pace, const std::string& who) {
+                      const Pace& pace, const std::string& name, const std::string& side) {
   const double jump = to.*wheel - from.*wheel, time_s = Pace::seconds(from, to);
   const double passes = -std::round(jump / range.size);
   if (passes == 0 || pace.fits(std::abs(jump + passes * range.size), time_s)) return passes;
   if (pace.fits(std::abs(jump), time_s)) return 0;
-  throw Error(
-      who + " jumps from " + to_text(from.*wheel) + " to " + to_text(to.*wheel) + " at " +
-      seconds_text(to.time_ns / 1000) +
-      " s, which is neither motion nor the end of a counter, as where a counter starts again; cut it there");
+  const std::string before = to_text(from.*wheel), after = to_text(to.*wheel),
+                    time = seconds_text(to.time_ns / 1000);
+  throw Error(name + ": the " + side + " wheel jumps from " + before + " to " + after + " at " + time +
+                  " s, which is neither motion nor the end of a counter, as where a counter starts again; "
+                  "cut it there",
+              CounterProblem::starts_again, {name, side, before, after, time});
 }
 
 void unwrap_wheel(WheelTrack& track, Wheel wheel, const Range& range, const std::string& name,
                   const std::string& side) {
   const Pace pace(track.samples, wheel, range);
-  const std::string who = "the " + side + " wheel";
   WheelSample before = track.samples.front();
   double passes = 0;
   bool any = false;
   for (WheelSample& sample : track.samples) {
-    const double more = passes_between(before, sample, wheel, range, pace, name + ": " + who);
+    const double more = passes_between(before, sample, wheel, range, pace, name, side);
     any = any || more != 0;
     passes += more;
     before = sample;
     sample.*wheel += passes * range.size;
   }
   if (any)
-    track.remarks.push_back(
-        {who + " starts again at the end of " + std::string(range.name) + "; it was made continuous"});
+    track.remarks.push_back({"the " + side + " wheel starts again at the end of " + std::string(range.name) +
+                             "; it was made continuous"});
 }
 
 }  // namespace

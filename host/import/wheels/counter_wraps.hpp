@@ -6,6 +6,10 @@
 
 namespace astro::importing {
 
+/// What is wrong with a wheel's counter. Values: the file, "left" or "right", the counts before and after,
+/// and the time in seconds.
+enum class CounterProblem { starts_again };
+
 /// Makes counters and angles continuous that start again at the end of their range: counts of 16 or 32 bits, signed or
 /// not, and angles in [0, 2 pi) or [-pi, pi). A wheel is taken to wrap if all its values are in such a range and it
 /// jumps by more than half of it at least once; a wheel must then move less than half the range between two samples.

@@ -35,7 +35,8 @@ Matrix rotation(const Vector& rpy) {
 double number(std::string_view text, const std::string& what) {
   const auto value = number_in(text);
   if (!value || !std::isfinite(*value))
-    throw Error(what + " has '" + std::string(text) + "', which is no number");
+    throw Error(what + " has '" + std::string(text) + "', which is no number",
+                DescriptionProblem::not_a_number, {std::string(text)});
   return *value;
 }
 
@@ -64,9 +65,10 @@ class Description {
  public:
   explicit Description(std::string_view urdf) {
     if (document_.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS)
-      throw Error("the robot's description is not XML: " + std::string(document_.ErrorName()));
+      throw Error("the robot's description is not XML: " + std::string(document_.ErrorName()),
+                  DescriptionProblem::not_xml);
     const XMLElement* robot = document_.FirstChildElement("robot");
-    if (robot == nullptr) throw Error("the robot's description has no <robot>");
+    if (robot == nullptr) throw Error("the robot's description has no <robot>", DescriptionProblem::no_robot);
     for (const XMLElement* at = robot->FirstChildElement("joint"); at; at = at->NextSiblingElement("joint")) {
       joints_.emplace(attribute(at, "name"), at);
       above_.emplace(attribute(at->FirstChildElement("child"), "link"), at);
@@ -86,7 +88,8 @@ class Description {
              at = at->NextSiblingElement(model))
           if (const double radius_m = radius_of(at->FirstChildElement("geometry"), name); radius_m > 0)
             return radius_m;
-    throw Error("the link '" + name + "' of the robot's description is no cylinder and no sphere");
+    throw Error("the link '" + name + "' of the robot's description is no cylinder and no sphere",
+                DescriptionProblem::no_round_wheel, {name});
   }
 
   /// Of both joints, along the axis of the first one.
@@ -111,7 +114,9 @@ class Description {
 
   const XMLElement& joint(const std::string& name) const {
     const auto found = joints_.find(name);
-    if (found == joints_.end()) throw Error("the robot's description has no joint '" + name + '\'');
+    if (found == joints_.end())
+      throw Error("the robot's description has no joint '" + name + '\'', DescriptionProblem::no_joint,
+                  {name});
     return *found->second;
   }
 
@@ -128,7 +133,9 @@ class Description {
     Place place;
     const XMLElement* at = &joint(name);
     for (int i = 0; at != nullptr; ++i) {
-      if (i == kMostJoints) throw Error("the joint '" + name + "' hangs on no first link");
+      if (i == kMostJoints)
+        throw Error("the joint '" + name + "' hangs on no first link", DescriptionProblem::joints_in_circle,
+                    {name});
       const XMLElement* origin = at->FirstChildElement("origin");
       const std::string what = "the joint '" + attribute(at, "name") + '\'';
       const Matrix turn = rotation(vector_in(origin, "rpy", {}, what));
@@ -162,7 +169,8 @@ DescribedWheels described_wheels(std::string_view urdf, const JointPair& joints)
   const double left_m = robot.radius_m(joints.left), right_m = robot.radius_m(joints.right);
   if (std::abs(left_m / right_m - 1) > kSame)
     throw Error("the wheels of the robot's description have radii of " + to_text(left_m) + " m and " +
-                to_text(right_m) + " m");
+                    to_text(right_m) + " m",
+                DescriptionProblem::radii_differ, {to_text(left_m), to_text(right_m)});
   const double separation_m = robot.separation_m(joints);
   if (!(separation_m > 0)) throw Error("both wheels of the robot's description are at one place of the axle");
   return {left_m, separation_m};

@@ -6,6 +6,18 @@
 
 namespace astro::importing {
 
+/// What is wrong with a robot's description. Values: the joint, the link, the text that is no number, or both
+/// radii in metres.
+enum class DescriptionProblem {
+  not_xml,
+  no_robot,
+  no_joint,
+  joints_in_circle,
+  no_round_wheel,
+  radii_differ,
+  not_a_number
+};
+
 /// The wheels of a robot as its description (URDF) has them.
 struct DescribedWheels {
   double radius_m = 0;      // of both

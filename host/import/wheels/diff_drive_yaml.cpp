@@ -31,7 +31,9 @@ double positive(const bag::YamlScalar& scalar, std::string_view name) {
   const auto value = number_in(scalar.value);
   if (!value || !std::isfinite(*value) || *value <= 0)
     throw Error(std::string(name) + ", line " + std::to_string(scalar.line) + ": '" + scalar.value +
-                "' is no number above 0: correct or replace it");
+                    "' is no number above 0: correct or replace it",
+                ControllerProblem::not_above_zero,
+                {std::string(name), std::to_string(scalar.line), scalar.value});
   return *value;
 }
 

@@ -7,6 +7,9 @@
 
 namespace astro::importing {
 
+/// What is wrong with a parameter of a controller. Values: the file, the line and the text there.
+enum class ControllerProblem { not_above_zero };
+
 /// What a file of parameters of ROS 2's diff_drive_controller says of a robot. The multipliers are what the robot
 /// carried while it drove: a wheel's radius is wheel_radius times its multiplier.
 struct DiffDriveParameters {

@@ -89,7 +89,9 @@ class JointWheels {
                                 " are the wheels cannot be told from their names: " + listed(names),
                             names, WheelProblem::joints_unclear);
       joints_ = *recognised;
-      remark("the wheels are the joints " + joints_.left + " and " + joints_.right);
+      track_.remarks.push_back({"the wheels are the joints " + joints_.left + " and " + joints_.right,
+                                ChoiceRemark::joints_recognised,
+                                {joints_.left, joints_.right}});
     }
     for (const std::string& joint : {joints_.left, joints_.right})
       if (!found.contains(joint))

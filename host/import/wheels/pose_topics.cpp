@@ -57,13 +57,19 @@ struct ClockOffset {
   }
   void remark(std::vector<Remark>& remarks) const {
     constexpr double kOtherClock_s = 3600, kMostSpread_s = 1;
-    if (std::abs(least_s) > kOtherClock_s || std::abs(most_s) > kOtherClock_s)
-      remarks.push_back({"the stamps of the poses are on another clock than the recorder's: they are " +
-                         std::to_string(std::llround(std::abs(least_s))) +
-                         (least_s < 0 ? " s after it" : " s before it")});
-    if (most_s - least_s > kMostSpread_s)
-      remarks.push_back({"the poses reached the recorder with delays that differ by " +
-                         std::to_string(std::llround(most_s - least_s)) + " s"});
+    if (std::abs(least_s) > kOtherClock_s || std::abs(most_s) > kOtherClock_s) {
+      const std::string off = std::to_string(std::llround(std::abs(least_s)));
+      remarks.push_back({"the stamps of the poses are on another clock than the recorder's: they are " + off +
+                             (least_s < 0 ? " s after it" : " s before it"),
+                         least_s < 0 ? StampProblem::after_recorder : StampProblem::before_recorder,
+                         {off}});
+    }
+    if (most_s - least_s > kMostSpread_s) {
+      const std::string spread = std::to_string(std::llround(most_s - least_s));
+      remarks.push_back({"the poses reached the recorder with delays that differ by " + spread + " s",
+                         StampProblem::delays_differ,
+                         {spread}});
+    }
   }
 };
 
@@ -159,11 +165,16 @@ const PoseStream& chosen_stream(const fs::path& path, std::span<const PoseStream
   const bool named = !selection.topic.empty() || !selection.frame.empty() || !selection.child_frame.empty();
   const PoseStream* found = recognised(left, named);
   if (found == nullptr) refuse(path, streams, left);
-  if (left.size() > 1) remarks.push_back({"the poses are those of " + with_type(*found)});
+  if (left.size() > 1)
+    remarks.push_back({"the poses are those of " + with_type(*found),
+                       ChoiceRemark::poses_recognised,
+                       {found->name(), found->type}});
   if (is_estimate(*found))
     remarks.push_back(
         {with_type(*found) +
-         " may be an estimate of the robot itself; it counts as ground truth because it was named"});
+             " may be an estimate of the robot itself; it counts as ground truth because it was named",
+         ChoiceRemark::poses_may_be_estimate,
+         {found->name(), found->type}});
   return *found;
 }
 

@@ -10,6 +10,10 @@
 
 namespace astro::importing {
 
+/// What is odd about the stamps of messages. Values: of `missing` the messages and how many, of the others
+/// how many seconds.
+enum class StampProblem { missing, before_recorder, after_recorder, delays_differ };
+
 /// Whether the stamps of messages are their times. A publisher that has no clock yet stamps with zero, as all do in
 /// simulated time until they hear it; but a clock may also start at zero, and then one message has this time.
 class StampCount {
@@ -29,7 +33,9 @@ class StampCount {
   /// That so many were left out, unless it is none. `what` names the messages: "poses of /tracker".
   void remark(const std::string& what, std::vector<Remark>& remarks) const {
     if (missing() > 0)
-      remarks.push_back({what + ": " + std::to_string(missing()) + " have no stamp and were left out"});
+      remarks.push_back({what + ": " + std::to_string(missing()) + " have no stamp and were left out",
+                         StampProblem::missing,
+                         {what, std::to_string(missing())}});
   }
 
  private:

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "host/base/error.hpp"
 
 namespace astro::importing {
 
-/// What a file alone does not tell.
+/// What a file alone does not tell. Values: what there is to choose from.
 enum class WheelProblem {
   columns_unclear,
   joints_unclear,
@@ -18,17 +17,17 @@ enum class WheelProblem {
   nothing_to_choose
 };
 
-/// What was meant cannot be told from a file alone, or is not in it; choices() is what there is to choose from.
+/// What a remark says of a choice. Values: the joints of the left and of the right wheel; the stream of poses
+/// and its type.
+enum class ChoiceRemark { joints_recognised, poses_recognised, poses_may_be_estimate };
+
+/// What was meant cannot be told from a file alone, or is not in it; values() is what there is to choose
+/// from.
 class UnclearChoice : public Error {
  public:
-  UnclearChoice(const std::string& sentence, std::vector<std::string> choices, WheelProblem unclear)
+  UnclearChoice(const std::string& sentence, const std::vector<std::string>& choices, WheelProblem unclear)
       : Error(choices.empty() ? sentence + ": name the right file" : sentence,
-              choices.empty() ? WheelProblem::nothing_to_choose : unclear),
-        choices_(std::move(choices)) {}
-  const std::vector<std::string>& choices() const { return choices_; }
-
- private:
-  std::vector<std::string> choices_;
+              choices.empty() ? WheelProblem::nothing_to_choose : unclear, choices) {}
 };
 
 /// The choices between commas.

@@ -15,7 +15,6 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/text/csv_table.hpp"
 #include "host/base/text/trimmed.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/time_text.hpp"
@@ -26,6 +25,13 @@ namespace astro::importing {
 namespace {
 
 constexpr std::size_t kMostCells = 1000;
+
+[[noreturn]] void refuse_line(const std::string& name, int line, const std::string& what,
+                              WheelTableProblem problem, const std::vector<std::string>& cell = {}) {
+  std::vector<std::string> values{name, std::to_string(line)};
+  values.insert(values.end(), cell.begin(), cell.end());
+  throw Error(fmt::format("{}, line {}: {}", name, line, what), problem, std::move(values));
+}
 
 /// The lines of a text file of any size, without their line ends (LF or CRLF) and a byte order mark.
 class LineReader {
@@ -53,10 +59,11 @@ std::optional<std::string_view> LineReader::next() {
   std::string_view text = as_text(file_.read(at_, count));
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos && count == kMostBytes)
-    refuse(name_, line_, "the line has more than 65536 characters");
+    refuse_line(name_, line_, "the line has more than 65536 characters", WheelTableProblem::line_too_long);
   at_ += end == std::string_view::npos ? count : end + 1;
   text = text.substr(0, end);
-  if (std::memchr(text.data(), 0, text.size()) != nullptr) refuse(name_, line_, "this is not text");
+  if (std::memchr(text.data(), 0, text.size()) != nullptr)
+    refuse_line(name_, line_, "this is not text", WheelTableProblem::not_text);
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
   if (line_ == 1 && text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   return text;
@@ -200,16 +207,18 @@ class Table {
 
   std::string_view cell(std::size_t at) const { return at < cells_.size() ? cells_[at] : std::string_view(); }
 
-  [[noreturn]] void refuse_cell(std::size_t at, const std::string& what) const {
+  [[noreturn]] void refuse_cell(std::size_t at, const std::string& what, WheelTableProblem problem) const {
     const bool comma = separator_ != ',' && cell(at).find(',') != std::string_view::npos;
-    refuse(name_, lines_.line(),
-           "column " + std::to_string(at + 1) + ": '" + std::string(cell(at)) + "' " + what +
-               (comma ? "; write it with a decimal point" : ""));
+    const std::string column = std::to_string(at + 1), text(cell(at));
+    refuse_line(name_, lines_.line(),
+                fmt::format("column {}: '{}' {}{}", column, text, what,
+                            comma ? "; write it with a decimal point" : ""),
+                problem, {column, text});
   }
 
   double travel(std::size_t at) const {
     const auto value = number(cell(at));
-    if (!value) refuse_cell(at, "is not a number");
+    if (!value) refuse_cell(at, "is not a number", WheelTableProblem::not_a_number);
     return *value * columns_.scale;
   }
 
@@ -217,20 +226,23 @@ class Table {
     if (cell(columns_.time).empty() || cell(columns_.left).empty() || cell(columns_.right).empty()) {
       // What a row of travel per interval does not say is missing in all rows after it.
       if (columns_.per_interval)
-        refuse(name_, lines_.line(),
-               "a cell is empty, and travel per interval cannot be left out: give every column a cell, and "
-               "write numbers with a decimal point");
+        refuse_line(
+            name_, lines_.line(),
+            "a cell is empty, and travel per interval cannot be left out: give every column a cell, and "
+            "write numbers with a decimal point",
+            WheelTableProblem::cell_empty);
       ++incomplete_;
       return;
     }
     const auto time_ns = time_in(cell(columns_.time), columns_.time_unit_ns);
-    if (!time_ns) refuse_cell(columns_.time, "is not a time");
+    if (!time_ns) refuse_cell(columns_.time, "is not a time", WheelTableProblem::not_a_time);
     WheelSample sample{*time_ns, travel(columns_.left), travel(columns_.right)};
     if (!track_.samples.empty()) {
       const WheelSample& before = track_.samples.back();
       if (sample.time_ns < before.time_ns)
-        refuse(name_, lines_.line(),
-               "the time is before that of the row above; sort the rows, or leave the column out");
+        refuse_line(name_, lines_.line(),
+                    "the time is before that of the row above; sort the rows, or leave the column out",
+                    WheelTableProblem::times_fall);
       if (columns_.per_interval) {
         sample.left += before.left;
         sample.right += before.right;
@@ -242,32 +254,43 @@ class Table {
       }
     }
     if (track_.samples.size() >= most_rows_)
-      refuse(name_, lines_.line(),
-             "the table has more rows than can be held: split it into one file for each run");
+      refuse_line(name_, lines_.line(),
+                  "the table has more rows than can be held: split it into one file for each run",
+                  WheelTableProblem::too_many_rows);
     track_.samples.push_back(sample);
   }
 
   void finish() {
     if (track_.samples.size() < 2)
-      refuse(name_, lines_.line(), "the table ends with fewer than two rows of wheels");
+      refuse_line(name_, lines_.line(), "the table ends with fewer than two rows of wheels",
+                  WheelTableProblem::too_few_rows);
     columns_.per_interval ? refuse_lost_rows() : unwrap(track_, name_);
     if (incomplete_ > 0)
       track_.remarks.push_back(
-          {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out"});
+          {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out",
+           WheelTableProblem::rows_incomplete,
+           {name_, std::to_string(incomplete_)}});
     if (repeated_ > 0)
       track_.remarks.push_back(
-          {name_ + " has " + std::to_string(repeated_) + " rows that repeat the time of the row above"});
+          {name_ + " has " + std::to_string(repeated_) + " rows that repeat the time of the row above",
+           WheelTableProblem::times_repeated,
+           {name_, std::to_string(repeated_)}});
   }
 
   void refuse_lost_rows() const {
     constexpr double kHarmless = 1e-4;  // of the travel: a tenth of what calibrations are good for
     const auto lost = find_lost_rows(track_.samples);
     if (!lost || lost->part < kHarmless) return;
-    throw Error(fmt::format(
-        "{} has lost rows in {} places, the first before {:.3f} s: after longer steps the wheels have "
-        "gone no further than in others, so {:.2g} % of the travel is missing: record again, and log the "
-        "counters themselves, of which a lost row takes nothing away",
-        name_, lost->steps, 1e-9 * static_cast<double>(lost->first_ns), 100 * lost->part));
+    const std::string places = std::to_string(lost->steps),
+                      first_s = fmt::format("{:.3f}", 1e-9 * static_cast<double>(lost->first_ns)),
+                      percent = fmt::format("{:.2g}", 100 * lost->part);
+    throw Error(
+        fmt::format(
+            "{} has lost rows in {} places, the first before {} s: after longer steps the wheels have gone "
+            "no further than in others, so {} % of the travel is missing: record again, and log the "
+            "counters themselves, of which a lost row takes nothing away",
+            name_, places, first_s, percent),
+        WheelTableProblem::rows_lost, {name_, places, first_s, percent});
   }
 
   LineReader lines_;

@@ -7,6 +7,25 @@
 
 namespace astro::importing {
 
+/// What is wrong with a table of wheels, or was left out of it. Values: the file, the line, and of a cell its
+/// column and its text; but
+///   rows_lost                        the file, how many places, the time of the first in seconds, and the
+///                                    percentage of the travel that is missing
+///   rows_incomplete, times_repeated  the file and how many rows
+enum class WheelTableProblem {
+  not_text,
+  line_too_long,
+  not_a_number,
+  not_a_time,
+  cell_empty,
+  times_fall,
+  too_few_rows,
+  too_many_rows,
+  rows_lost,
+  rows_incomplete,
+  times_repeated
+};
+
 /// What is known of a table of wheels besides the file.
 struct WheelTable {
   /// "time_s,left_counts,right_counts": the names of the columns (wheel_columns.hpp), which take the place of those in

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using support::ThrowsTelling;
+using support::told_by;
 using testing::HasSubstr;
 
 class NoFilm : public testing::Test {
@@ -46,25 +47,25 @@ TEST_F(NoFilm, IsAPlaylistThatNamesAFilm) {
   std::ofstream(folder_.path() / "list.mp4") << "ffconcat version 1.0\nfile good.mp4\n";
   for (const char* name : {"hls.mp4", "list.mp4"})
     EXPECT_THAT([&] { read_film_info(folder_.path() / name); },
-                ThrowsTelling(HasSubstr(std::string(name) + "' is not a film"), Help::name_film));
+                ThrowsTelling(FilmFileProblem::not_a_film, (folder_.path() / name).string()));
 }
 
 TEST_F(NoFilm, IsReadThroughAPlaylistThatNamesAPipe) {
   const fs::path pipe = folder_.path() / "pipe.ts";
   ASSERT_EQ(std::system(("mkfifo '" + pipe.string() + "'").c_str()), 0);
   std::ofstream(folder_.path() / "list.mp4") << "ffconcat version 1.0\nfile pipe.ts\n";
-  EXPECT_THAT([&] { read_film_info(folder_.path() / "list.mp4"); },
-              ThrowsTelling(HasSubstr("is not a film"), Help::name_film));
-  EXPECT_THAT([&] { read_film_info(pipe); },
-              ThrowsTelling(HasSubstr("is a device or a pipe"), Help::name_file));
+  const fs::path list = folder_.path() / "list.mp4";
+  EXPECT_THAT([&] { read_film_info(list); }, ThrowsTelling(FilmFileProblem::not_a_film, list.string()));
+  EXPECT_THAT(told_by([&] { read_film_info(pipe); }).sentence, HasSubstr("is a device or a pipe"));
 }
 
 TEST_F(NoFilm, HasLargerPicturesThanAnyPhoneTakes) {
-  for (const char* size : {"16384x64", "64x16384"}) {
-    const fs::path large = film(std::string(size) + ".mkv", size, "-c:v ffv1");
+  for (const auto& [width, height] : {std::pair{"16384", "64"}, {"64", "16384"}}) {
+    const std::string size = std::string(width) + "x" + height;
+    const fs::path large = film(size + ".mkv", size, "-c:v ffv1");
     // Where no tag is seen, a picture is looked at in twice its size.
     EXPECT_THAT([&] { read_film_info(large); },
-                ThrowsTelling(HasSubstr("64 to 8192 pixels on each side"), Help::name_film));
+                ThrowsTelling(FilmFileProblem::unusual_size, large.string(), width, height));
   }
   EXPECT_EQ(read_film_info(film("8k.mkv", "8192x64", "-c:v ffv1")).width, 8192);
 }
@@ -83,9 +84,9 @@ TEST(ChildProcess, ThatNeitherWritesNorEndsIsEnded) {
   };
   std::uint8_t byte[1];
   EXPECT_THAT([&] { silent("exec sleep 100", [&](ChildProcess& child) { child.read(byte); }); },
-              ThrowsTelling(HasSubstr("has neither said anything nor ended for 100 ms"), Help::name_film));
+              ThrowsTelling(ChildProblem::silent, "sh", "100"));
   EXPECT_THAT([&] { silent("exec >&-; exec sleep 100", [](ChildProcess& child) { child.finish(); }); },
-              ThrowsTelling(HasSubstr("has neither said anything nor ended"), Help::name_film));
+              ThrowsTelling(ChildProblem::silent, "sh", "100"));
   silent("exec >&- 2>&-; exec sleep 100", [](ChildProcess& child) { EXPECT_FALSE(child.finish()); });
   silent("echo a; exec sleep 100", [&](ChildProcess& child) { EXPECT_EQ(child.read(byte), 1U); });
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
@@ -110,8 +111,9 @@ TEST(TagDetector, RefusesAPictureInWhichItCannotCount) {
   TagDetector detector;
   for (const auto& [width, height] : {std::pair{32'768, 16}, {16, 32'768}}) {
     const GrayFrame frame = checkered(width, height);
-    EXPECT_THAT([&] { detector.detect(frame, whole_of(frame), 1); },
-                ThrowsTelling(HasSubstr("tags cannot be looked for in a picture of"), Help::none));
+    EXPECT_THAT(
+        [&] { detector.detect(frame, whole_of(frame), 1); },
+        ThrowsTelling(DetectorProblem::picture_too_large, std::to_string(width), std::to_string(height)));
   }
 }
 

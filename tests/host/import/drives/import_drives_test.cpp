@@ -20,7 +20,9 @@ using calibration::Trajectory;
 using calibration::WheelFactors;
 using support::Tells;
 using support::told_by;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 class Import : public testing::Test {
  protected:
@@ -160,7 +162,7 @@ TEST_F(Import, RefusesADriveThatIsGivenTwice) {
   const fs::path truth = test::write_tum(at("t.tum"), drives()[0]);
   const std::vector<DriveFiles> twice{{wheels, truth}, {at("./w.csv"), truth}};
   EXPECT_THAT(told_by([&] { import_drives(twice, choices()); }),
-              Tells(HasSubstr("given twice"), Help::name_other_file));
+              Tells(ImportProblem::given_twice, at("./w.csv").string()));
 }
 
 class Directions : public Import {
@@ -185,34 +187,34 @@ TEST_F(Directions, ExchangedWheelsUnderABodyAboveTheFloorAreRefusedAndNotTakenFo
   ImportChoices exchanged = choices();
   exchanged.wheels.exchanged = true;
   EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged); }),
-              Tells(HasSubstr("0.21 m above the tracker's origin"), Help::exchange_wheels_or_give_up));
+              Tells(ImportProblem::turns_against_wheels, "w", "0.21"));
 }
 
 TEST_F(Directions, ExchangedWheelsUnderAnAxisThatPointsDownDoNotHideEachOther) {
   ImportChoices exchanged = choices();
   exchanged.wheels.exchanged = true;  // as the file would have them
-  EXPECT_THAT(
-      told_by([&] { imported(test::z_down, exchanged); }),
-      Tells(HasSubstr("the body is 0.21 m below the tracker's origin"), Help::exchange_wheels_or_give_up));
+  EXPECT_THAT(told_by([&] { imported(test::z_down, exchanged); }),
+              Tells(ImportProblem::below_origin, "w", "0.21"));
   ImportChoices below = choices();
   below.floor.up = truth::Direction3{0, 0, 1};
   EXPECT_NO_THROW(imported(test::z_up, below, -test::kHeight_m))
       << "a tracker whose origin is not on the floor";
-  EXPECT_THROW(imported(test::z_up, choices(), -test::kHeight_m), Error);
+  EXPECT_THAT(told_by([&] { imported(test::z_up, choices(), -test::kHeight_m); }),
+              Tells(ImportProblem::below_origin, "w", "0.21"));
 }
 
 TEST_F(Directions, WhereNothingShowsWhatIsMirroredNothingIsGuessed) {
   ImportChoices exchanged = choices();
   exchanged.wheels.exchanged = true;
   EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged, 0); }),
-              Tells(HasSubstr("nothing shows which"), Help::exchange_wheels_or_give_up));
+              Tells(ImportProblem::turns_against_wheels, "w"));
 }
 
 TEST_F(Directions, AGivenAxisAgainstTheWheelsIsRefused) {
   ImportChoices down = choices();
   down.floor.up = truth::Direction3{0, 0, -1};
   EXPECT_THAT(told_by([&] { imported(test::z_up, down); }),
-              Tells(HasSubstr("the other way"), Help::exchange_wheels_or_change_up));
+              Tells(ImportProblem::turns_against_stated_up, "w"));
 }
 
 TEST_F(Import, SaysWhichSizeIsMissing) {
@@ -221,11 +223,11 @@ TEST_F(Import, SaysWhichSizeIsMissing) {
   const auto without = [&](std::optional<double> RobotGeometry::*size) {
     ImportChoices some = choices();
     (some.geometry.*size).reset();
-    return told_by([&] { import_drives(pair, some); }).remedy.help;
+    return told_by([&] { import_drives(pair, some); });
   };
-  EXPECT_EQ(without(&RobotGeometry::wheel_diameter_m), Help::give_wheel_diameter);
-  EXPECT_EQ(without(&RobotGeometry::counts_per_turn), Help::give_counts_per_turn);
-  EXPECT_EQ(without(&RobotGeometry::wheelbase_m), Help::give_wheelbase);
+  EXPECT_THAT(without(&RobotGeometry::wheel_diameter_m), Tells(ImportProblem::no_wheel_diameter));
+  EXPECT_THAT(without(&RobotGeometry::counts_per_turn), Tells(ImportProblem::no_counts_per_turn));
+  EXPECT_THAT(without(&RobotGeometry::wheelbase_m), Tells(ImportProblem::no_wheelbase));
 }
 
 TEST_F(Import, RefusesACopyOfADriveUnderAnotherName) {
@@ -233,7 +235,7 @@ TEST_F(Import, RefusesACopyOfADriveUnderAnotherName) {
       {test::write_counts(at("w1.csv"), drives()[0]), test::write_tum(at("t1.tum"), drives()[0])},
       {test::write_counts(at("w2.csv"), drives()[0]), test::write_tum(at("t2.tum"), drives()[0])}};
   EXPECT_THAT(told_by([&] { import_drives(pairs, choices()); }),
-              Tells(HasSubstr("'w2' is a copy of 'w1'"), Help::name_other_file));
+              Tells(ImportProblem::copy_of_other, "w2", "w1"));
 }
 
 TEST_F(Import, KnowsTheRobotOfARecordingOfOurs) {
@@ -255,22 +257,19 @@ TEST_F(Import, SaysThatSizesGivenBesideARecordingOfOursAreNotUsed) {
   recording::write_run(at("own.mcap"), import_drives(pair, choices()).set.runs[0]);
   const std::vector<DriveFiles> own{{at("own.mcap"), at("t.tum")}};
   const auto remarks = [&](const ImportChoices& given) {
-    const ImportedDrives drives = import_drives(own, given);
-    std::string all;
-    for (const Remark& remark : drives.reports[0].remarks) all += remark.sentence + '\n';
-    return all;
+    return import_drives(own, given).reports[0].remarks;
   };
-  EXPECT_THAT(remarks(choices()), testing::Not(HasSubstr("not used"))) << "they are the same";
+  EXPECT_THAT(remarks(choices()), Not(Contains(Tells(ImportProblem::sizes_not_used)))) << "they are the same";
   ImportChoices other = choices();
   other.geometry.wheelbase_m = 0.5;
-  EXPECT_THAT(remarks(other), HasSubstr("the sizes that were given are not used"));
+  EXPECT_THAT(remarks(other), Contains(Tells(ImportProblem::sizes_not_used)));
 }
 
 TEST_F(Import, RefusesWheelsThatLeap) {
   std::ofstream(at("w.csv")) << "time_s,left_rad,right_rad\n0,0,0\n0.01,1e6,1e6\n0.02,1e6,1e6\n";
   const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
   EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
-              Tells(HasSubstr("turns more than 100 times"), Help::check_wheel_units));
+              Tells(ImportProblem::turns_too_far, "w", "0.000", "0.010"));
 }
 
 TEST_F(Import, RefusesACounterThatStartsAgain) {
@@ -279,8 +278,7 @@ TEST_F(Import, RefusesACounterThatStartsAgain) {
   std::ofstream(at("w.csv")) << rows << "2.0,0,0\n2.02,60,60\n";
   const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
   EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
-              Tells(HasSubstr("a wheel leaps by 1.67 m between the samples at 1.980 s and 2.000 s"),
-                    Help::cut_recording_or_check_wheel_units));
+              Tells(ImportProblem::leaps, "w", "1.67", "1.980", "2.000"));
 }
 
 TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {

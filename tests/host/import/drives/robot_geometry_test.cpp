@@ -13,7 +13,6 @@ namespace {
 
 using support::Tells;
 using support::told_by;
-using testing::HasSubstr;
 using testing::Optional;
 
 class RobotFile : public testing::Test {
@@ -84,8 +83,7 @@ TEST_F(RobotFile, WithTwoControllersAsksForOne) {
   const auto path = file("two.yaml",
                          "a:\n  ros__parameters:\n    wheel_radius: 0.03\n    wheel_separation: 0.2\n"
                          "b:\n  ros__parameters:\n    wheel_radius: 0.04\n    wheel_separation: 0.3\n");
-  EXPECT_THAT(told_by([&] { read_robot_file(path); }),
-              Tells(HasSubstr("several controllers"), Help::name_controller));
+  EXPECT_THAT(told_by([&] { read_robot_file(path); }), Tells(WheelProblem::controller_unclear, "a", "b"));
   EXPECT_THAT(read_robot_file(path, "b").wheelbase_m, Optional(0.3));
 }
 
@@ -104,7 +102,7 @@ TEST_F(RobotFile, OptionsCountMoreThanTheFile) {
 TEST_F(RobotFile, WithASizeThatNoRobotHasIsNamed) {
   const auto path = file("bad.toml", "[parameters]\nwheel_diameter = -0.072\nb = 0.29\n");
   EXPECT_THAT(told_by([&] { read_robot_file(path); }),
-              Tells(HasSubstr("wheel_diameter is not a number above 0"), Help::correct_or_replace_file));
+              Tells(ImportProblem::size_not_above_zero, path.string(), "wheel_diameter"));
 }
 
 }  // namespace

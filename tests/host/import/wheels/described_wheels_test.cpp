@@ -2,13 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "host/base/error.hpp"
 #include "host/formats/messages/robot_model.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::importing {
 namespace {
 
-using testing::HasSubstr;
+using support::Tells;
+using support::told_by;
 
 const JointPair kWheelJoints{"left_wheel_joint", "right_wheel_joint"};
 
@@ -35,13 +36,8 @@ std::string wheels_xml(const std::string& left_shape, const std::string& right_s
       joint_xml("right_wheel_joint", "base", "r", "<origin xyz='0 -0.15 0'/><axis xyz='0 1 0'/>"));
 }
 
-std::string wheels_refusal(const std::string& urdf, const JointPair& joints = kWheelJoints) {
-  try {
-    described_wheels(urdf, joints);
-    return "taken";
-  } catch (const Error& error) {
-    return error.what();
-  }
+Remark wheels_refusal(const std::string& urdf, const JointPair& joints = kWheelJoints) {
+  return told_by([&] { described_wheels(urdf, joints); });
 }
 
 TEST(DescribedWheels, OfThisProjectsOwnDescription) {
@@ -75,19 +71,20 @@ TEST(DescribedWheels, WhereverTheAxleLiesAndHoweverTheJointsAreTurned) {
 
 TEST(DescribedWheels, WhatIsMissingOrDiffersIsNamed) {
   const std::string cylinder = "<cylinder radius='0.04' length='0.01'/>";
-  EXPECT_EQ(wheels_refusal(wheels_xml(cylinder, cylinder)), "taken");
-  EXPECT_THAT(wheels_refusal(wheels_xml(cylinder, "<mesh filename='x.stl'/>")), HasSubstr("the link 'r'"));
+  EXPECT_NO_THROW(described_wheels(wheels_xml(cylinder, cylinder), kWheelJoints));
+  EXPECT_THAT(wheels_refusal(wheels_xml(cylinder, "<mesh filename='x.stl'/>")),
+              Tells(DescriptionProblem::no_round_wheel, "r"));
   EXPECT_THAT(wheels_refusal(wheels_xml(cylinder, "<cylinder radius='0.041' length='0.01'/>")),
-              HasSubstr("0.04 m and 0.041 m"));
+              Tells(DescriptionProblem::radii_differ, "0.04", "0.041"));
   EXPECT_THAT(wheels_refusal(wheels_xml(cylinder, "<cylinder radius='${r}' length='0.01'/>")),
-              HasSubstr("'${r}'"));
+              Tells(DescriptionProblem::not_a_number, "${r}"));
   EXPECT_THAT(wheels_refusal(wheels_xml(cylinder, "<cylinder radius='nan' length='0.01'/>")),
-              HasSubstr("no number"));
+              Tells(DescriptionProblem::not_a_number, "nan"));
   EXPECT_THAT(wheels_refusal(wheels_xml(cylinder, cylinder), {"left_wheel_joint", "arm"}),
-              HasSubstr("no joint 'arm'"));
-  EXPECT_THAT(wheels_refusal("<robot>"), HasSubstr("not XML"));
-  EXPECT_THAT(wheels_refusal("robot"), HasSubstr("not XML"));
-  EXPECT_THAT(wheels_refusal("<sdf/>"), HasSubstr("no <robot>"));
+              Tells(DescriptionProblem::no_joint, "arm"));
+  EXPECT_THAT(wheels_refusal("<robot>"), Tells(DescriptionProblem::not_xml));
+  EXPECT_THAT(wheels_refusal("robot"), Tells(DescriptionProblem::not_xml));
+  EXPECT_THAT(wheels_refusal("<sdf/>"), Tells(DescriptionProblem::no_robot));
 }
 
 TEST(DescribedWheels, ACircleOfJointsAndADeepNestAreRefused) {
@@ -95,10 +92,10 @@ TEST(DescribedWheels, ACircleOfJointsAndADeepNestAreRefused) {
   EXPECT_THAT(wheels_refusal(robot_xml(link_xml("l", cylinder) + link_xml("r", cylinder) +
                                        joint_xml("left_wheel_joint", "r", "l", "") +
                                        joint_xml("right_wheel_joint", "l", "r", ""))),
-              HasSubstr("hangs on no first link"));
+              Tells(DescriptionProblem::joints_in_circle, "left_wheel_joint"));
   std::string deep;
   for (int i = 0; i < 1'000'000; ++i) deep += "<a>";
-  EXPECT_THAT(wheels_refusal(deep), HasSubstr("not XML"));
+  EXPECT_THAT(wheels_refusal(deep), Tells(DescriptionProblem::not_xml));
 }
 
 }  // namespace

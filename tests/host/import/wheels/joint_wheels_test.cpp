@@ -4,8 +4,10 @@
 
 #include "host/formats/messages/joint_state.hpp"
 #include "host/import/wheels/diff_drive_yaml.hpp"
+#include "host/import/wheels/stamp_count.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "tests/host/formats/files/made_bags.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::importing {
@@ -13,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using ros2::JointState;
+using support::Tells;
+using support::ThrowsTelling;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 std::optional<JointPair> recognised(const std::vector<std::string>& names) { return recognise_wheels(names); }
 
@@ -58,13 +60,8 @@ class JointWheels : public ::testing::Test {
     bag::made_bags::save(path, file);
     return path;
   }
-  std::vector<std::string> choices(const Topics& topics, const JointSelection& selection) const {
-    try {
-      wheels_in_bag(bag(topics), selection);
-    } catch (const UnclearChoice& unclear) {
-      return unclear.choices();
-    }
-    return {"no complaint"};
+  Remark refusal(const Topics& topics, const JointSelection& selection) const {
+    return support::told_by([&] { wheels_in_bag(bag(topics), selection); });
   }
   const test::TemporaryFolder folder_;
 };
@@ -80,7 +77,7 @@ TEST_F(JointWheels, PositionsOfRecognisedJointsAreRead) {
   EXPECT_EQ(track.clock, WheelClock::stamp);
   EXPECT_THAT(track.samples, ElementsAre(WheelSample{10, 2, 1}, WheelSample{20, 5, 3}));
   ASSERT_FALSE(track.remarks.empty());
-  EXPECT_EQ(track.remarks[0].sentence, "the wheels are the joints left_wheel and right_wheel");
+  EXPECT_THAT(track.remarks[0], Tells(ChoiceRemark::joints_recognised, "left_wheel", "right_wheel"));
 }
 
 TEST_F(JointWheels, VelocitiesAreIntegratedWhereThereAreNoPositions) {
@@ -128,18 +125,18 @@ TEST_F(JointWheels, MessagesBeforeTheFirstStampAreLeftOut) {
                                                 {late, {"l", "r"}, {1, 2}, {}, {}},
                                                 {late + 1, {"l", "r"}, {2, 3}, {}, {}}}}}));
   EXPECT_THAT(track.samples, ElementsAre(WheelSample{late, 1, 2}, WheelSample{late + 1, 2, 3}));
-  EXPECT_EQ(track.remarks.back().sentence, "messages of /joint_states: 1 have no stamp and were left out");
+  EXPECT_THAT(track.remarks.back(), Tells(StampProblem::missing, "messages of /joint_states", "1"));
 }
 
 TEST_F(JointWheels, WhatIsUnclearIsRefusedWithTheChoices) {
   const std::vector<JointState> pair{{1, {"l", "r"}, {0, 1}, {}, {}}, {2, {"l", "r"}, {1, 2}, {}, {}}};
   const std::vector<JointState> four{{1, {"fl", "fr"}, {0, 1}, {}, {}}, {2, {"fl", "fr"}, {1, 2}, {}, {}}};
-  EXPECT_THAT(choices({{"/a", pair}, {"/b", pair}}, {}), ElementsAre("/a", "/b"));
-  EXPECT_THAT(choices({{"/a", pair}}, {"/b", {}}), ElementsAre("/a"));
-  EXPECT_THAT(choices({{"/a", four}}, {}), ElementsAre("fl", "fr"));
-  EXPECT_THAT(choices({{"/a", pair}}, {"/a", {"l", "x"}}), ElementsAre("l", "r"));
-  EXPECT_THAT(choices({{"/a", pair}}, {"/a", {"l", "l"}}), ElementsAre("l", "r"));
-  EXPECT_THAT(choices({}, {}), IsEmpty());
+  EXPECT_THAT(refusal({{"/a", pair}, {"/b", pair}}, {}), Tells(WheelProblem::topic_unclear, "/a", "/b"));
+  EXPECT_THAT(refusal({{"/a", pair}}, {"/b", {}}), Tells(WheelProblem::topic_unclear, "/a"));
+  EXPECT_THAT(refusal({{"/a", four}}, {}), Tells(WheelProblem::joints_unclear, "fl", "fr"));
+  EXPECT_THAT(refusal({{"/a", pair}}, {"/a", {"l", "x"}}), Tells(WheelProblem::joints_unclear, "l", "r"));
+  EXPECT_THAT(refusal({{"/a", pair}}, {"/a", {"l", "l"}}), Tells(WheelProblem::joints_unclear, "l", "r"));
+  EXPECT_THAT(refusal({}, {}), Tells(WheelProblem::nothing_to_choose));
   EXPECT_EQ(wheels_in_bag(bag({{"/a", four}, {"/b", pair}}), {"/a", {"fr", "fl"}}).samples[0],
             (WheelSample{1, 1, 0}));
 }
@@ -164,20 +161,13 @@ TEST(DiffDriveYaml, TheControllersParametersAreRead) {
 TEST(DiffDriveYaml, SeveralControllersAndBadValuesAreRefused) {
   const std::string two =
       std::string(kYaml) + "other:\n  ros__parameters: {wheel_radius: 1, wheel_separation: 2}\n";
-  try {
-    diff_drive_parameters(two, "c.yaml");
-    FAIL();
-  } catch (const UnclearChoice& unclear) {
-    EXPECT_THAT(unclear.choices(), ElementsAre("/robot/base_controller", "other"));
-  }
+  EXPECT_THAT([&] { diff_drive_parameters(two, "c.yaml"); },
+              ThrowsTelling(WheelProblem::controller_unclear, "/robot/base_controller", "other"));
   EXPECT_EQ(diff_drive_parameters(two, "c.yaml", "other").wheel_radius_m, 1);
-  EXPECT_THROW(diff_drive_parameters("a: 1", "c.yaml"), UnclearChoice);
-  try {
-    diff_drive_parameters("a:\n  ros__parameters:\n    wheel_radius: -1\n", "c.yaml");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("c.yaml, line 3: '-1' is no number above 0"));
-  }
+  EXPECT_THAT([] { diff_drive_parameters("a: 1", "c.yaml"); },
+              ThrowsTelling(WheelProblem::nothing_to_choose));
+  EXPECT_THAT([] { diff_drive_parameters("a:\n  ros__parameters:\n    wheel_radius: -1\n", "c.yaml"); },
+              ThrowsTelling(ControllerProblem::not_above_zero, "c.yaml", "3", "-1"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "host/import/wheels/unclear_choice.hpp"
 #include "tests/host/formats/files/made_bags.hpp"
 #include "tests/support/base/places.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::importing {
@@ -13,8 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using ros2::StampedPose;
+using support::Tells;
+using support::ThrowsTelling;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -68,37 +70,29 @@ TEST_F(PoseTopics, ATopicOfATrackerIsRecognised) {
       bag({{"/tf", pose(1, "map", "odom", 1)}, {"/vicon/tf", pose(2, "world", "robot", 2)}});
   const PoseTopic topic = poses_in_bag(path);
   EXPECT_THAT(xs(topic), ElementsAre(2));
-  EXPECT_EQ(topic.remarks.at(0).sentence,
-            "the poses are those of /vicon/tf world robot (tf2_msgs/msg/TFMessage)");
+  EXPECT_THAT(topic.remarks.at(0),
+              Tells(ChoiceRemark::poses_recognised, "/vicon/tf world robot", "tf2_msgs/msg/TFMessage"));
 }
 
 TEST_F(PoseTopics, WhatIsUnclearIsRefusedWithTheChoices) {
   const fs::path path = bag({{"/tf", pose(1, "map", "odom", 1)}, {"/tf", pose(2, "odom", "base", 2)}});
-  for (const PoseSelection& selection : {PoseSelection{}, PoseSelection{"/pose", "", ""}}) {
-    try {
-      poses_in_bag(path, selection);
-      FAIL();
-    } catch (const UnclearChoice& unclear) {
-      EXPECT_THAT(unclear.choices(), ElementsAre("/tf map odom", "/tf odom base"));
-    }
-  }
-  EXPECT_THROW(poses_in_bag(bag({})), UnclearChoice);
+  for (const PoseSelection& selection : {PoseSelection{}, PoseSelection{"/pose", "", ""}})
+    EXPECT_THAT([&] { poses_in_bag(path, selection); },
+                ThrowsTelling(WheelProblem::poses_unclear, "/tf map odom", "/tf odom base"));
+  EXPECT_THAT([&] { poses_in_bag(bag({})); }, ThrowsTelling(WheelProblem::nothing_to_choose));
 }
 
 // Wheels that are calibrated against the odometry that was computed from them seem perfect.
 TEST_F(PoseTopics, ARobotsOwnEstimatesAreNeverTruthUnlessTheyAreNamed) {
   const fs::path transform = bag({{"/tf", pose(1, "odom", "base_link", 1)}});
-  try {
-    poses_in_bag(transform);
-    FAIL() << "the only stream of poses";
-  } catch (const UnclearChoice& unclear) {
-    EXPECT_THAT(unclear.what(), HasSubstr("it has /tf odom base_link"));
-    EXPECT_EQ(unclear.remedy().help, Help::name_pose_stream);
-  }
+  EXPECT_THAT([&] { poses_in_bag(transform); },
+              ThrowsTelling(WheelProblem::poses_unclear, "/tf odom base_link"))
+      << "the only stream of poses";
   for (const PoseSelection& named : {PoseSelection{"/tf", "", ""}, PoseSelection{"", "odom", "base_link"}}) {
     const PoseTopic topic = poses_in_bag(transform, named);
     EXPECT_THAT(xs(topic), ElementsAre(1));
-    EXPECT_THAT(topic.remarks.at(0).sentence, HasSubstr("may be an estimate of the robot itself"));
+    EXPECT_THAT(topic.remarks.at(0),
+                Tells(ChoiceRemark::poses_may_be_estimate, "/tf odom base_link", "tf2_msgs/msg/TFMessage"));
   }
 }
 
@@ -132,15 +126,15 @@ TEST_F(PoseTopics, TimesAreStampsOrThoseOfTheRecorder) {
   const PoseTopic other = poses_in_bag(bag(
       {{"/mocap", pose(kSecond, "a", "b", 1)}, {"/mocap", pose(5 * kSecond, "a", "b", 2)}}, 9000 * kSecond));
   ASSERT_EQ(other.remarks.size(), 2U);
-  EXPECT_THAT(other.remarks[0].sentence, HasSubstr("another clock than the recorder's"));
-  EXPECT_THAT(other.remarks[1].sentence, HasSubstr("delays that differ by 3 s"));
+  EXPECT_THAT(other.remarks[0], Tells(StampProblem::before_recorder, "8996"));
+  EXPECT_THAT(other.remarks[1], Tells(StampProblem::delays_differ, "3"));
 }
 
 TEST_F(PoseTopics, StampsAheadOfTheRecorderAreSaidToBeAfterIt) {
   const PoseTopic ahead = poses_in_bag(
       bag({{"/mocap", pose(9000 * kSecond, "a", "b", 1)}, {"/mocap", pose(9001 * kSecond, "a", "b", 2)}}));
   ASSERT_EQ(ahead.remarks.size(), 1U);
-  EXPECT_THAT(ahead.remarks[0].sentence, HasSubstr("they are 8999 s after it"));
+  EXPECT_THAT(ahead.remarks[0], Tells(StampProblem::after_recorder, "8999"));
 }
 
 // A node in simulated time publishes zeros until it hears the clock.
@@ -150,7 +144,7 @@ TEST_F(PoseTopics, PosesBeforeTheFirstStampAreLeftOut) {
                                            {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));
   EXPECT_THAT(xs(late), ElementsAre(2, 3));
   ASSERT_EQ(late.remarks.size(), 1U);
-  EXPECT_EQ(late.remarks[0].sentence, "poses of /mocap: 1 have no stamp and were left out");
+  EXPECT_THAT(late.remarks[0], Tells(StampProblem::missing, "poses of /mocap", "1"));
   const PoseTopic once = poses_in_bag(bag({{"/mocap", pose(0, "a", "b", 1)},
                                            {"/mocap", pose(0, "a", "b", 2)},
                                            {"/mocap", pose(3 * kSecond, "a", "b", 3)}}));
