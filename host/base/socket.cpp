@@ -63,8 +63,11 @@ std::string numeric(const Address& address, int flag) {
 }
 
 [[noreturn]] void fail_bound(const Address& local) {
-  throw system_error("port " + std::to_string(local.port()) + " of " + local.host() + " cannot be used",
-                     errno);
+  const int code = errno;
+  const std::string port = std::to_string(local.port()), host = local.host();
+  const Error why = system_error("port " + port + " of " + host + " cannot be used", code, {},
+                                 AddressProblem::port_unusable);
+  throw Error(why.what(), why.kind(), {port, host});
 }
 
 Socket open_bound(const Address& local, int type) {
@@ -110,7 +113,9 @@ std::vector<Address> Address::all_of(const std::string& host, std::uint16_t port
   addrinfo* found = nullptr;
   const int failed = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(found, ::freeaddrinfo);
-  if (failed != 0) throw Error("the host '" + host + "' was not found: " + ::gai_strerror(failed));
+  if (failed != 0)
+    throw Error("the host '" + host + "' was not found: " + ::gai_strerror(failed),
+                AddressProblem::host_unknown, {host});
   std::vector<Address> addresses;
   for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
     Address& address = addresses.emplace_back();

@@ -18,6 +18,9 @@ namespace astro::net {
 
 using std::chrono::microseconds;
 
+/// What is wrong with an address. Values: the host's name; the port and this computer's address.
+enum class AddressProblem { host_unknown, port_unusable };
+
 /// Owns a descriptor.
 class Socket {
  public:

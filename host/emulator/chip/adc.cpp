@@ -63,14 +63,19 @@ void Adc::write(std::uint32_t offset, std::uint32_t word) {
   if (offset != adc::HC0.value) return;
   const std::uint32_t channel = adc::HC0_ADCH.of(word);
   if (channel == kNoChannel) return stop();
-  if (channel != kBatteryChannel) return machine_.fail("ADC1 HC0: nothing is connected to this channel");
+  if (channel != kBatteryChannel)
+    return machine_.fail({"ADC1 HC0: nothing is connected to this channel", AdcProblem::not_connected});
   if (adc::CFG_MODE.of(value(adc::CFG.value)) != k12Bits)
-    return machine_.fail("ADC1 CFG: only 12 bits are modelled");
-  if (!calibrated_) return machine_.fail("ADC1 HC0: a conversion before the calibration");
-  if (busy_) return machine_.fail("ADC1 HC0: a conversion is begun while another one runs, which is lost");
+    return machine_.fail({"ADC1 CFG: only 12 bits are modelled", AdcProblem::resolution_not_modelled});
+  if (!calibrated_)
+    return machine_.fail({"ADC1 HC0: a conversion before the calibration", AdcProblem::not_calibrated});
+  if (busy_)
+    return machine_.fail(
+        {"ADC1 HC0: a conversion is begun while another one runs, which is lost", AdcProblem::busy});
   if ((iomuxc_.setting(iomuxc::SW_PAD_CTL_PAD_GPIO_AD_B1_02.value) & kKeeper) != 0)
     return machine_.fail(
-        "ADC1 HC0: the keeper of the pad falsifies what it reads (IOMUXC SW_PAD_CTL_PAD_GPIO_AD_B1_02)");
+        {"ADC1 HC0: the keeper of the pad falsifies what it reads (IOMUXC SW_PAD_CTL_PAD_GPIO_AD_B1_02)",
+         AdcProblem::keeper_on});
   busy_ = true;
   complete_ = false;
   machine_.wake(*this, machine_.now() + conversion());

@@ -7,6 +7,9 @@
 
 namespace astro::emulator {
 
+/// Why a conversion fails.
+enum class AdcProblem { not_connected, resolution_not_modelled, not_calibrated, busy, keeper_on };
+
 /// ADC1 with the battery's divider on pin 14, channel 7.
 class Adc : public Stored {
  public:

@@ -71,11 +71,13 @@ void Analog::write(std::uint32_t offset, std::uint32_t value_written) {
   const std::uint32_t base = offset & ~0xFU;
   const std::uint32_t old = value(base), word = combined(offset, old, value_written);
   if (base == kArm) {
-    if (core_runs_from_arm_pll()) machine_.fail("CCM_ANALOG PLL_ARM: changed while the core runs from it");
+    if (core_runs_from_arm_pll())
+      machine_.fail({"CCM_ANALOG PLL_ARM: changed while the core runs from it", ClockProblem::pll_in_use});
     const std::uint32_t factor = ccm_analog::PLL_ARM_DIV_SELECT.of(word);
     const bool on = ccm_analog::PLL_ARM_POWERDOWN.of(word) == 0 && ccm_analog::PLL_ARM_ENABLE.of(word) != 0;
     if (on && (factor < 54 || factor > 108))
-      machine_.fail("CCM_ANALOG PLL_ARM: DIV_SELECT is not within 54..108");
+      machine_.fail(
+          {"CCM_ANALOG PLL_ARM: DIV_SELECT is not within 54..108", ClockProblem::pll_factor_out_of_range});
     arm_locked_at_ = on ? machine_.now() + kLock : kNever;
   }
   if (base == kUsb && ccm_analog::PLL_USB1_POWER.of(word) != ccm_analog::PLL_USB1_POWER.of(old))
@@ -94,9 +96,12 @@ std::uint32_t Dcdc::read(std::uint32_t offset) {
 void Dcdc::write(std::uint32_t offset, std::uint32_t value_written) {
   if (offset == dcdc::REG3.value) {
     const std::uint32_t target_mV = 800 + 25 * dcdc::REG3_TRG.of(value_written);
-    if (target_mV > kMost_mV) machine_.fail("DCDC REG3: more than 1.3 V for the core");
+    if (target_mV > kMost_mV)
+      machine_.fail({"DCDC REG3: more than 1.3 V for the core", ClockProblem::voltage_too_high});
     if (target_mV < kFast_mV && core_mhz() > kSlow_mhz)
-      machine_.fail(fmt::format("DCDC REG3: {} mV for a core that runs at {} MHz", target_mV, core_mhz()));
+      machine_.fail({fmt::format("DCDC REG3: {} mV for a core that runs at {} MHz", target_mV, core_mhz()),
+                     ClockProblem::voltage_too_low,
+                     {std::to_string(target_mV), std::to_string(core_mhz())}});
     settled_at_ = machine_.now() + kSettle;
   }
   store(offset, value_written);
@@ -176,27 +181,39 @@ void Ccm::check_source() {
   const std::uint32_t sources = value(ccm::CBCMR.value);
   const bool detour = ccm::CBCDR_PERIPH_CLK_SEL.of(value(ccm::CBCDR.value)) != 0;
   if (detour && ccm::CBCMR_PERIPH_CLK2_SEL.of(sources) != kCrystal)
-    machine_.fail("CCM CBCMR: of the clocks behind PERIPH_CLK2_SEL only the crystal is modelled");
+    machine_.fail({"CCM CBCMR: of the clocks behind PERIPH_CLK2_SEL only the crystal is modelled",
+                   ClockProblem::crystal_not_selected});
   if (!detour && ccm::CBCMR_PRE_PERIPH_CLK_SEL.of(sources) != kArmPll)
-    machine_.fail("CCM CBCMR: of the clocks behind PRE_PERIPH_CLK_SEL only the ARM PLL is modelled");
+    machine_.fail({"CCM CBCMR: of the clocks behind PRE_PERIPH_CLK_SEL only the ARM PLL is modelled",
+                   ClockProblem::arm_pll_not_selected});
 }
 
 void Ccm::check_supply() {
   if (!from_pll()) return;
   if (!analog_.arm_pll_locked())
-    machine_.fail("CCM CBCDR: the core is to run from a PLL that has not locked");
-  if (analog_.arm_pll_bypassed()) machine_.fail("CCM CBCDR: the core is to run from a PLL that is bypassed");
+    machine_.fail(
+        {"CCM CBCDR: the core is to run from a PLL that has not locked", ClockProblem::pll_not_locked});
+  if (analog_.arm_pll_bypassed())
+    machine_.fail({"CCM CBCDR: the core is to run from a PLL that is bypassed", ClockProblem::pll_bypassed});
   if (core_mhz() > kSlow_mhz && dcdc_.millivolts() < kFast_mV)
-    machine_.fail(fmt::format("CCM CBCDR: {} MHz with less than 1.25 V (DCDC REG3)", core_mhz()));
-  if (core_mhz() > 600) machine_.fail(fmt::format("CCM CBCDR: {} MHz", core_mhz()));
+    machine_.fail({fmt::format("CCM CBCDR: {} MHz with less than 1.25 V (DCDC REG3)", core_mhz()),
+                   ClockProblem::too_fast_for_voltage,
+                   {std::to_string(core_mhz())}});
+  if (core_mhz() > 600)
+    machine_.fail({fmt::format("CCM CBCDR: {} MHz", core_mhz()),
+                   ClockProblem::core_too_fast,
+                   {std::to_string(core_mhz())}});
   if (bus_mhz() > 150)
-    machine_.fail(fmt::format("CCM CBCDR: {} MHz for the bus, the most is 150", bus_mhz()));
+    machine_.fail({fmt::format("CCM CBCDR: {} MHz for the bus, the most is 150", bus_mhz()),
+                   ClockProblem::bus_too_fast,
+                   {std::to_string(bus_mhz())}});
 }
 
 void Ccm::write(std::uint32_t offset, std::uint32_t word) {
   const bool handshakes = offset == ccm::CACRR.value || offset == ccm::CBCDR.value;
   if (handshakes && machine_.now() < busy_until_)
-    machine_.fail("CCM CDHIPR: a divider is changed while the last change is under way");
+    machine_.fail({"CCM CDHIPR: a divider is changed while the last change is under way",
+                   ClockProblem::last_change_under_way});
   const std::uint32_t changed = value(offset) ^ word;
   store(offset, word);
   std::uint32_t busy = 0;
@@ -214,7 +231,8 @@ void Ccm::write(std::uint32_t offset, std::uint32_t word) {
     check_supply();
   }
   if (offset == ccm::CSCMR1.value && (timer_hz() == 0 || kCyclesPerSecond % timer_hz() != 0))
-    machine_.fail("CCM CSCMR1: a clock of the timers that is no whole part of 600 MHz is not modelled");
+    machine_.fail({"CCM CSCMR1: a clock of the timers that is no whole part of 600 MHz is not modelled",
+                   ClockProblem::timer_clock_not_whole});
 }
 
 }  // namespace astro::emulator

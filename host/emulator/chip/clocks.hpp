@@ -7,6 +7,24 @@
 
 namespace astro::emulator {
 
+/// Which rule of clocks and supplies was broken. The value is the clock in MHz; of voltage_too_low the
+/// voltage in millivolts comes before it.
+enum class ClockProblem {
+  pll_in_use,
+  pll_factor_out_of_range,
+  voltage_too_high,
+  voltage_too_low,
+  crystal_not_selected,
+  arm_pll_not_selected,
+  pll_not_locked,
+  pll_bypassed,
+  too_fast_for_voltage,
+  core_too_fast,
+  bus_too_fast,
+  last_change_under_way,
+  timer_clock_not_whole
+};
+
 /// PLLs, band gap and supplies of the analogue parts: CCM_ANALOG and PMU, which share a page. A PLL locks 60
 /// us after it was switched on.
 class Analog : public Stored {

@@ -50,7 +50,9 @@ void Enc::count(std::int32_t edges) {
 
 std::uint32_t Enc::read(std::uint32_t offset) {
   if (offset == enc::POSD.value || offset == enc::REV.value)
-    machine_.fail(fmt::format("ENC{} {}: not modelled", number_, offset == enc::REV.value ? "REV" : "POSD"));
+    machine_.fail({fmt::format("ENC{} {}: not modelled", number_, offset == enc::REV.value ? "REV" : "POSD"),
+                   DecoderProblem::read_not_modelled,
+                   {std::to_string(number_), offset == enc::REV.value ? "REV" : "POSD"}});
   if (offset == enc::UPOS.value || offset == enc::LPOS.value) held_ = position_;
   if (offset == enc::UPOS.value) return position_ >> 16;
   if (offset == enc::LPOS.value) return position_ & 0xFFFF;
@@ -73,12 +75,16 @@ void Enc::write(std::uint32_t offset, std::uint32_t value) {
     if (enc::CTRL_SWIP.of(value) != 0) position_ = initial_;
   } else if (offset == enc::CTRL2.value) {
     if (enc::CTRL2_MOD.of(value) != 0)
-      machine_.fail(fmt::format("ENC{} CTRL2: counting modulo is not modelled", number_));
+      machine_.fail({fmt::format("ENC{} CTRL2: counting modulo is not modelled", number_),
+                     DecoderProblem::modulo_not_modelled,
+                     {std::to_string(number_)}});
     control2_ = half;
   } else if (offset == enc::FILT.value) {
     const bool runs = enc::FILT_FILT_PER.of(filter_) != 0;
     if (runs && enc::FILT_FILT_PER.of(value) != 0 && half != filter_)
-      machine_.fail(fmt::format("ENC{} FILT: changed while its period is not 0", number_));
+      machine_.fail({fmt::format("ENC{} FILT: changed while its period is not 0", number_),
+                     DecoderProblem::filter_running,
+                     {std::to_string(number_)}});
     filter_ = half;
   } else if (offset == enc::UINIT.value) {
     initial_ = (initial_ & 0xFFFF) | value << 16;
@@ -93,7 +99,9 @@ void Enc::write(std::uint32_t offset, std::uint32_t value) {
   } else if (offset == enc::LCOMP.value) {
     compare_lower_ = half;
   } else if (offset != enc::UMOD.value && offset != enc::LMOD.value && offset != enc::IMR.value) {
-    machine_.fail(fmt::format("ENC{}: a write to offset 0x{:02X} is not modelled", number_, offset));
+    machine_.fail({fmt::format("ENC{}: a write to offset 0x{:02X} is not modelled", number_, offset),
+                   DecoderProblem::write_not_modelled,
+                   {std::to_string(number_), fmt::format("0x{:02X}", offset)}});
   }
 }
 

@@ -15,6 +15,9 @@ class Xbara : public Stored {
   }
 };
 
+/// What a decoder cannot do. The first value is its number, the second one the register or its offset.
+enum class DecoderProblem { read_not_modelled, write_not_modelled, modulo_not_modelled, filter_running };
+
 /// One quadrature decoder. Counts all four edges of the two phases that the crossbar brings to it.
 ///
 /// Not modelled  differences, revolutions, counting modulo, the input filter's effect.

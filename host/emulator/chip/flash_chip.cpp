@@ -20,7 +20,7 @@ void FlashChip::restore_power() {
 
 /// Called by all commands except the one for the status.
 void FlashChip::refuse_while_busy() {
-  if (busy()) machine_.fail("NOR flash: a command while the last one runs is ignored");
+  if (busy()) machine_.fail({"NOR flash: a command while the last one runs is ignored", FlashProblem::busy});
 }
 
 void FlashChip::write_enable() {
@@ -35,11 +35,16 @@ std::array<std::uint8_t, 3> FlashChip::identity() {
 
 bool FlashChip::begin(std::uint32_t address, Cycles takes) {
   refuse_while_busy();
-  if (!enabled_) machine_.fail("NOR flash: programming or erasing without write enable (0x06) is ignored");
+  if (!enabled_)
+    machine_.fail({"NOR flash: programming or erasing without write enable (0x06) is ignored",
+                   FlashProblem::not_write_enabled});
   if (address < kParameters || address >= kParametersEnd)
-    machine_.fail(fmt::format(
-        "NOR flash: 0x{:06X} does not belong to the parameters: the program or the boot loader is there",
-        address));
+    machine_.fail(
+        {fmt::format(
+             "NOR flash: 0x{:06X} does not belong to the parameters: the program or the boot loader is there",
+             address),
+         FlashProblem::outside_parameters,
+         {fmt::format("0x{:06X}", address)}});
   enabled_ = false;
   busy_until_ = machine_.now() + takes;
   on_busy(true);
@@ -54,7 +59,8 @@ void FlashChip::erase_sector(std::uint32_t address) {
 }
 
 void FlashChip::program(std::uint32_t address, std::span<const std::uint8_t> bytes) {
-  if (bytes.size() > kPageBytes) machine_.fail("NOR flash: more than a page is programmed at once");
+  if (bytes.size() > kPageBytes)
+    machine_.fail({"NOR flash: more than a page is programmed at once", FlashProblem::more_than_a_page});
   if (!begin(address, times.page)) return;
   const std::uint32_t page = address / kPageBytes * kPageBytes;
   const std::size_t here = std::min<std::size_t>(bytes.size(), page + kPageBytes - address);

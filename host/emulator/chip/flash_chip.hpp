@@ -10,6 +10,9 @@
 
 namespace astro::emulator {
 
+/// Which command the flash ignores, or must not get. The value of outside_parameters is the address.
+enum class FlashProblem { busy, not_write_enabled, outside_parameters, more_than_a_page };
+
 /// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
 /// processor reads its program from. Programming clears bits, erasing sets all bits of a sector. Failures,
 /// above all power cuts, are those of the simulated board's flash.

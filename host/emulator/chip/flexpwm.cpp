@@ -104,24 +104,31 @@ void FlexPwm::refuse_unmodelled() {
   const auto word = [this](auto reg) { return value(reg.value); };
   const std::uint32_t outputs = pwm::OUTEN_PWMA_EN(kSubmodule) | pwm::OUTEN_PWMB_EN(kSubmodule);
   if (pwm::SM2_CTRL_PRSC.of(word(pwm::SM2_CTRL)) != 0)
-    machine_.fail("PWM2 SM2_CTRL: a prescaler is not modelled");
+    machine_.fail({"PWM2 SM2_CTRL: a prescaler is not modelled", PwmProblem::prescaler_not_modelled});
   if (pwm::SM2_CTRL_FULL.of(word(pwm::SM2_CTRL)) == 0)
-    machine_.fail("PWM2 SM2_CTRL: without FULL nothing is loaded when a period ends");
+    machine_.fail(
+        {"PWM2 SM2_CTRL: without FULL nothing is loaded when a period ends", PwmProblem::never_loaded});
   if ((word(pwm::SM2_CTRL2) & kOtherClocks) != 0)
-    machine_.fail("PWM2 SM2_CTRL2: only the bus clock and a start of its own are modelled");
+    machine_.fail({"PWM2 SM2_CTRL2: only the bus clock and a start of its own are modelled",
+                   PwmProblem::clock_not_modelled});
   if ((word(pwm::OUTEN) & outputs) != 0 && pwm::SM2_CTRL2_INDEP.of(word(pwm::SM2_CTRL2)) == 0)
-    machine_.fail("PWM2 OUTEN: complementary outputs are not modelled (SM2_CTRL2.INDEP)");
+    machine_.fail({"PWM2 OUTEN: complementary outputs are not modelled (SM2_CTRL2.INDEP)",
+                   PwmProblem::complementary_not_modelled});
   if ((word(pwm::FCTRL0) & kAutomatic) != 0)
-    machine_.fail("PWM2 FCTRL0: only faults that the firmware clears are modelled");
-  if (word(pwm::SM2_OCTRL) != 0) machine_.fail("PWM2 SM2_OCTRL: only 0 is modelled");
-  if (word(pwm::SM2_FRCTRL) != 0) machine_.fail("PWM2 SM2_FRCTRL: only 0 is modelled");
+    machine_.fail({"PWM2 FCTRL0: only faults that the firmware clears are modelled",
+                   PwmProblem::fault_mode_not_modelled});
+  if (word(pwm::SM2_OCTRL) != 0)
+    machine_.fail({"PWM2 SM2_OCTRL: only 0 is modelled", PwmProblem::output_control_not_modelled});
+  if (word(pwm::SM2_FRCTRL) != 0)
+    machine_.fail({"PWM2 SM2_FRCTRL: only 0 is modelled", PwmProblem::fractions_not_modelled});
 }
 
 void FlexPwm::write(std::uint32_t offset, std::uint32_t word) {
   const bool buffered_register = offset >= pwm::SM2_INIT.value && offset <= pwm::SM2_VAL5.value &&
                                  offset != pwm::SM2_CTRL2.value && offset != pwm::SM2_CTRL.value;
   if (buffered_register && locked())
-    return machine_.fail("PWM2 SM2: values are written while the last ones wait to be loaded (MCTRL.LDOK)");
+    return machine_.fail({"PWM2 SM2: values are written while the last ones wait to be loaded (MCTRL.LDOK)",
+                          PwmProblem::values_wait});
   if (offset == pwm::MCTRL.value) return write_mctrl(word);
   if (offset == pwm::MASK.value) return write_mask(word);
   if (offset == pwm::FSTS0.value) faults_ &= ~pwm::FSTS0_FFLAG.of(word);

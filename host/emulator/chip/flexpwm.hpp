@@ -7,6 +7,18 @@
 
 namespace astro::emulator {
 
+/// What the PWM cannot do, or does not do as it is written.
+enum class PwmProblem {
+  prescaler_not_modelled,
+  never_loaded,
+  clock_not_modelled,
+  complementary_not_modelled,
+  fault_mode_not_modelled,
+  output_control_not_modelled,
+  fractions_not_modelled,
+  values_wait
+};
+
 /// FlexPWM2 with its submodule 2, whose outputs A and B are pins 6 and 9. Its counter runs at 150 MHz,
 /// whatever the clock controller says.
 ///

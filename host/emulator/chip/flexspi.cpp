@@ -60,7 +60,9 @@ Flexspi::Command Flexspi::decode() {
       else if (code == kRead)
         command.reads = true;
       else
-        machine_.fail(fmt::format("FLEXSPI LUT60: a step with code {} is not modelled", code));
+        machine_.fail({fmt::format("FLEXSPI LUT60: a step with code {} is not modelled", code),
+                       FlexspiProblem::step_not_modelled,
+                       {std::to_string(code)}});
     }
   }
   return command;
@@ -70,9 +72,12 @@ void Flexspi::trigger() {
   const std::uint32_t setting = value(flexspi::IPCR1.value);
   if (running_)
     return machine_.fail(
-        fmt::format("FLEXSPI IPCMD: triggered while command 0x{:02X} runs", command_.opcode));
+        {fmt::format("FLEXSPI IPCMD: triggered while command 0x{:02X} runs", command_.opcode),
+         FlexspiProblem::command_under_way,
+         {fmt::format("0x{:02X}", command_.opcode)}});
   if (flexspi::IPCR1_ISEQID.of(setting) != kSequence || flexspi::IPCR1_ISEQNUM.of(setting) != 0)
-    return machine_.fail("FLEXSPI IPCR1: only sequence 15 is the firmware's");
+    return machine_.fail(
+        {"FLEXSPI IPCR1: only sequence 15 is the firmware's", FlexspiProblem::sequence_not_the_firmwares});
   running_ = true;
   command_ = decode();
   const Cycles takes = kPerByte * (8 + flexspi::IPCR1_IDATSZ.of(setting));
@@ -99,9 +104,13 @@ void Flexspi::receive(std::span<const std::uint8_t> bytes) {
 void Flexspi::execute() {
   if (const Command* expected = known(command_.opcode); expected == nullptr)
     return machine_.fail(
-        fmt::format("FLEXSPI LUT60: the flash does not know command 0x{:02X}", command_.opcode));
+        {fmt::format("FLEXSPI LUT60: the flash does not know command 0x{:02X}", command_.opcode),
+         FlexspiProblem::command_unknown,
+         {fmt::format("0x{:02X}", command_.opcode)}});
   else if (*expected != command_)
-    return machine_.fail(fmt::format("FLEXSPI LUT60: not the steps of command 0x{:02X}", command_.opcode));
+    return machine_.fail({fmt::format("FLEXSPI LUT60: not the steps of command 0x{:02X}", command_.opcode),
+                          FlexspiProblem::wrong_steps,
+                          {fmt::format("0x{:02X}", command_.opcode)}});
   const std::uint32_t address = value(flexspi::IPCR0.value);
   const std::uint32_t bytes = flexspi::IPCR1_IDATSZ.of(value(flexspi::IPCR1.value));
   if (command_.opcode == kWriteEnable) flash_.write_enable();
@@ -119,7 +128,9 @@ std::uint32_t Flexspi::read(std::uint32_t offset) {
   if (offset == flexspi::STS0.value)
     return flexspi::STS0_ARBIDLE(!running_) | flexspi::STS0_SEQIDLE(!running_);
   if (offset == flexspi::RFDR0.value) {
-    if (from_flash_.empty()) machine_.fail("FLEXSPI RFDR0: read while the flash has sent nothing");
+    if (from_flash_.empty())
+      machine_.fail(
+          {"FLEXSPI RFDR0: read while the flash has sent nothing", FlexspiProblem::nothing_received});
     std::uint32_t word = 0;
     for (std::uint32_t i = 0; i < 4 && i < from_flash_.size(); ++i)
       word |= std::uint32_t{from_flash_[i]} << (8 * i);
@@ -131,7 +142,8 @@ std::uint32_t Flexspi::read(std::uint32_t offset) {
 
 void Flexspi::write_flags(std::uint32_t word) {
   if (flexspi::INTR_IPTXWE.of(word) != 0) {
-    if (queued() + kPair > kQueue) machine_.fail("FLEXSPI TFDR0: overrun, the queue to the flash is full");
+    if (queued() + kPair > kQueue)
+      machine_.fail({"FLEXSPI TFDR0: overrun, the queue to the flash is full", FlexspiProblem::overrun});
     const auto bytes = std::bit_cast<std::array<std::uint8_t, kPair>>(pair_);
     to_flash_.insert(to_flash_.end(), bytes.begin(), bytes.end());
   }
@@ -141,13 +153,13 @@ void Flexspi::write_flags(std::uint32_t word) {
 void Flexspi::write(std::uint32_t offset, std::uint32_t word) {
   if (offset == flexspi::LUTKEY.value) {
     key_ = word == kKey;
-    if (!key_) machine_.fail("FLEXSPI LUTKEY: not the key");
+    if (!key_) machine_.fail({"FLEXSPI LUTKEY: not the key", FlexspiProblem::wrong_key});
   } else if (offset == flexspi::LUTCR.value) {
-    if (!key_) machine_.fail("FLEXSPI LUTCR: written without the key");
+    if (!key_) machine_.fail({"FLEXSPI LUTCR: written without the key", FlexspiProblem::without_key});
     unlocked_ = flexspi::LUTCR_UNLOCK.of(word) != 0;
     key_ = false;
   } else if (offset >= flexspi::LUT60.value) {
-    if (!unlocked_) machine_.fail("FLEXSPI LUT60: the table is locked");
+    if (!unlocked_) machine_.fail({"FLEXSPI LUT60: the table is locked", FlexspiProblem::table_locked});
     store(offset, word);
   } else if (offset == flexspi::IPCMD.value) {
     if (flexspi::IPCMD_TRG.of(word) != 0) trigger();

@@ -11,6 +11,20 @@
 
 namespace astro::emulator {
 
+/// Which rule of the flash's controller was broken. A value is the code of a step or of the flash's command.
+enum class FlexspiProblem {
+  step_not_modelled,
+  command_under_way,
+  sequence_not_the_firmwares,
+  command_unknown,
+  wrong_steps,
+  nothing_received,
+  overrun,
+  wrong_key,
+  without_key,
+  table_locked
+};
+
 /// The controller of the program's flash: commands are sequences in its look-up table. The firmware may use
 /// only the last sequence; the first one reads the program.
 class Flexspi : public Stored {

@@ -19,8 +19,10 @@ void Gpio::check_owner(std::uint32_t touched, const char* what) {
   const int slow_port = fast ? port_ - 5 : port_;
   const std::uint32_t fast_pins = gpr_.fast_pins(slow_port);
   if ((touched & (fast ? ~fast_pins : fast_pins)) != 0)
-    machine_.fail(fmt::format("GPIO{} {}: moves pins that belong to GPIO{} (IOMUXC_GPR GPR{})", port_, what,
-                              fast ? slow_port : port_ + 5, 25 + slow_port));
+    machine_.fail({fmt::format("GPIO{} {}: moves pins that belong to GPIO{} (IOMUXC_GPR GPR{})", port_, what,
+                               fast ? slow_port : port_ + 5, 25 + slow_port),
+                   GpioProblem::pins_of_other_port,
+                   {std::to_string(port_), what, std::to_string(fast ? slow_port : port_ + 5)}});
 }
 
 void Gpio::set_data(std::uint32_t data, std::uint32_t touched) {
@@ -37,9 +39,14 @@ void Gpio::write(std::uint32_t offset, std::uint32_t value) {
     check_owner(direction_ ^ value, "GDIR");
     direction_ = value;
   }
-  if (offset == gpio::PSR.value) machine_.fail(fmt::format("GPIO{} PSR: cannot be written", port_));
+  if (offset == gpio::PSR.value)
+    machine_.fail({fmt::format("GPIO{} PSR: cannot be written", port_),
+                   GpioProblem::pad_state_written,
+                   {std::to_string(port_)}});
   if (offset == gpio::IMR.value && value != 0)
-    machine_.fail(fmt::format("GPIO{} IMR: interrupts of the pins are not modelled", port_));
+    machine_.fail({fmt::format("GPIO{} IMR: interrupts of the pins are not modelled", port_),
+                   GpioProblem::interrupts_not_modelled,
+                   {std::to_string(port_)}});
 }
 
 }  // namespace astro::emulator

@@ -6,6 +6,10 @@
 
 namespace astro::emulator {
 
+/// What a port cannot do. The first value is the port's number; of pins_of_other_port the register and the
+/// number of that port follow.
+enum class GpioProblem { pins_of_other_port, pad_state_written, interrupts_not_modelled };
+
 /// One GPIO port. Which pins it has is up to GPR26..29: 1..4 and 6..9 are two views of the same pads.
 ///
 /// Not modelled  interrupts of the pins.

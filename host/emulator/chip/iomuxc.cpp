@@ -42,10 +42,12 @@ void IomuxcGpr::reset() {
 
 void IomuxcGpr::write(std::uint32_t offset, std::uint32_t word) {
   if (offset == iomuxc_gpr::GPR16.value && (word & ~0x7FU) != kRomVectors)
-    machine_.fail("IOMUXC_GPR GPR16: the vectors of the next reset must stay with the ROM");
+    machine_.fail({"IOMUXC_GPR GPR16: the vectors of the next reset must stay with the ROM",
+                   FlexRamProblem::vectors_moved});
   const auto code = [word](int lsb) { return word >> lsb & 0xF; };
   if (offset == iomuxc_gpr::GPR14.value && (code(16) < 3 || code(16) > 10 || code(20) < 3 || code(20) > 10))
-    machine_.fail("IOMUXC_GPR GPR14: the sizes of the coupled memories are codes 3 (4 KB) to 10 (512 KB)");
+    machine_.fail({"IOMUXC_GPR GPR14: the sizes of the coupled memories are codes 3 (4 KB) to 10 (512 KB)",
+                   FlexRamProblem::size_unknown});
   store(offset, word);
   if (offset == iomuxc_gpr::GPR14.value || offset == iomuxc_gpr::GPR16.value ||
       offset == iomuxc_gpr::GPR17.value)

@@ -31,6 +31,9 @@ class Iomuxc : public Stored {
   }
 };
 
+/// What is wrong with the division of FlexRAM.
+enum class FlexRamProblem { vectors_moved, size_unknown };
+
 /// IOMUXC_GPR: how FlexRAM is shared out, and which of two ports has a pin.
 class IomuxcGpr : public Stored {
  public:

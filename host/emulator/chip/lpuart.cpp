@@ -57,7 +57,8 @@ void Lpuart::arrive() {
   if (lpuart::CTRL_RE.of(control_) == 0 || !connected()) return;
   idle_at_ = machine_.now() + byte_time();  // only a stored character arms the flag again
   if (received_.size() >= capacity(lpuart::FIFO_RXFE))
-    return machine_.fail("LPUART6 DATA: overrun, the receiver's queue was not emptied");
+    return machine_.fail(
+        {"LPUART6 DATA: overrun, the receiver's queue was not emptied", LpuartProblem::receiver_overrun});
   received_.push_back(byte);
 }
 
@@ -77,7 +78,8 @@ void Lpuart::event() {
   }
   if (std::exchange(found_by_, found_by_ <= now ? kNever : found_by_) <= now)
     machine_.fail(
-        "LPUART6 STAT: IDLE was cleared while a character waits in the queue that no event will report");
+        {"LPUART6 STAT: IDLE was cleared while a character waits in the queue that no event will report",
+         LpuartProblem::character_never_reported});
   update();
 }
 
@@ -111,7 +113,7 @@ void Lpuart::update() {
 
 std::uint32_t Lpuart::read_data() {
   if (received_.empty()) {
-    machine_.fail("LPUART6 DATA: read while nothing has been received");
+    machine_.fail({"LPUART6 DATA: read while nothing has been received", LpuartProblem::nothing_received});
     return 0;
   }
   const std::uint8_t byte = received_.front();
@@ -137,9 +139,11 @@ std::uint32_t Lpuart::read(std::uint32_t offset) {
 void Lpuart::write_baud(std::uint32_t value) {
   const std::uint32_t ratio = lpuart::BAUD_OSR.of(value) + 1;
   if (ratio < 4 || (ratio < 8 && lpuart::BAUD_BOTHEDGE.of(value) == 0))
-    return machine_.fail("LPUART6 BAUD: fewer than 8 samples a bit need BOTHEDGE, fewer than 4 do not work");
+    return machine_.fail({"LPUART6 BAUD: fewer than 8 samples a bit need BOTHEDGE, fewer than 4 do not work",
+                          LpuartProblem::too_few_samples,
+                          {std::to_string(ratio)}});
   if (lpuart::BAUD_SBR.of(value) == 0)
-    return machine_.fail("LPUART6 BAUD: a divider SBR of 0 stops the port");
+    return machine_.fail({"LPUART6 BAUD: a divider SBR of 0 stops the port", LpuartProblem::divider_zero});
   baud_ = value;
 }
 
@@ -153,9 +157,10 @@ void Lpuart::write_fifo(std::uint32_t value) {
 
 void Lpuart::write_data(std::uint32_t value) {
   if (lpuart::CTRL_TE.of(control_) == 0)
-    return machine_.fail("LPUART6 DATA: sent while the transmitter is off");
+    return machine_.fail({"LPUART6 DATA: sent while the transmitter is off", LpuartProblem::transmitter_off});
   if (sending_.size() >= capacity(lpuart::FIFO_TXFE))
-    return machine_.fail("LPUART6 DATA: overrun, the transmitter's queue is full");
+    return machine_.fail(
+        {"LPUART6 DATA: overrun, the transmitter's queue is full", LpuartProblem::transmitter_overrun});
   if (sending_.empty()) departs_at_ = machine_.now() + byte_time();
   sending_.push_back(static_cast<std::uint8_t>(value));
 }
@@ -165,7 +170,8 @@ void Lpuart::write(std::uint32_t offset, std::uint32_t value) {
   const bool setting =
       offset == lpuart::BAUD.value || offset == lpuart::FIFO.value || offset == lpuart::WATER.value;
   if (running && setting)
-    machine_.fail("LPUART6: configured while transmitter or receiver runs (CTRL.TE, RE)");
+    machine_.fail(
+        {"LPUART6: configured while transmitter or receiver runs (CTRL.TE, RE)", LpuartProblem::running});
   if (offset == lpuart::BAUD.value) write_baud(value);
   if (offset == lpuart::STAT.value) events_ &= ~(value & kClearable);
   if (offset == lpuart::CTRL.value) control_ = value;

@@ -11,6 +11,18 @@
 
 namespace astro::emulator {
 
+/// What the serial port loses or cannot do. The value of too_few_samples is their number for each bit.
+enum class LpuartProblem {
+  receiver_overrun,
+  transmitter_overrun,
+  character_never_reported,
+  nothing_received,
+  too_few_samples,
+  divider_zero,
+  transmitter_off,
+  running
+};
+
 /// LPUART6, and the wire to a host on pins 0 and 1: bytes take the time that the baud rate gives them, both
 /// ways.
 class Lpuart : public Model {

@@ -104,12 +104,17 @@ void Pit::set_stopped(bool stopped) {
 void Pit::set_control(std::size_t n, std::uint32_t value) {
   Channel& channel = channels_[n];
   if (n == 0 && (value & kChained) != 0)
-    machine_.fail("PIT CHANNEL0_TCTRL: there is no channel to chain it to");
+    machine_.fail(
+        {"PIT CHANNEL0_TCTRL: there is no channel to chain it to", PitProblem::nothing_to_chain_to, {"0"}});
   const bool ran = (channel.control & kEnabled) != 0, runs = (value & kEnabled) != 0;
   if (!ran && runs && stopped_)
-    machine_.fail(fmt::format("PIT CHANNEL{}_TCTRL: started while MCR.MDIS stops the module", n));
+    machine_.fail({fmt::format("PIT CHANNEL{}_TCTRL: started while MCR.MDIS stops the module", n),
+                   PitProblem::module_stopped,
+                   {std::to_string(n)}});
   if (ran && runs && ((channel.control ^ value) & kChained) != 0)
-    machine_.fail(fmt::format("PIT CHANNEL{}_TCTRL: chained or unchained while it counts", n));
+    machine_.fail({fmt::format("PIT CHANNEL{}_TCTRL: chained or unchained while it counts", n),
+                   PitProblem::chained_while_counting,
+                   {std::to_string(n)}});
   channel.control = value;
   if (ran == runs) return;
   channel.began = machine_.now();
@@ -122,7 +127,9 @@ void Pit::write(std::uint32_t offset, std::uint32_t value) {
   if (offset == pit::MCR.value) {
     set_stopped(pit::MCR_MDIS.of(value) != 0);
   } else if (offset < kChannels || offset % 16 == kValue) {
-    machine_.fail(fmt::format("PIT 0x{:03X}: a count cannot be written", offset));
+    machine_.fail({fmt::format("PIT 0x{:03X}: a count cannot be written", offset),
+                   PitProblem::count_written,
+                   {fmt::format("0x{:03X}", offset)}});
   } else {
     const std::size_t n = (offset - kChannels) / 16;
     if (offset % 16 == kLoad)

@@ -37,6 +37,8 @@ class Src : public Model {
   std::array<std::uint32_t, 4> kept_{};
 };
 
+enum class FuseProblem { written };
+
 /// The fuses: an identity that differs between robots.
 class Ocotp : public Model {
  public:
@@ -49,7 +51,9 @@ class Ocotp : public Model {
     if (offset == ocotp::MAC1.value) return 0x04E9;
     return 0;  // CFG5: not locked to signed programs
   }
-  void write(std::uint32_t, std::uint32_t) override { machine_.fail("OCOTP: a fuse is written"); }
+  void write(std::uint32_t, std::uint32_t) override {
+    machine_.fail({"OCOTP: a fuse is written", FuseProblem::written});
+  }
   void reset() override {}
 
  private:

@@ -49,10 +49,11 @@ void Rtwdog::write_key(std::uint32_t value) {
   const std::uint32_t key = rtwdog::CS_CMD32EN.of(control_) != 0 ? value : half_key_ | value << 16;
   if (key == kUnlock) {
     if (rtwdog::CS_UPDATE.of(control_) == 0)
-      return machine_.fail("RTWDOG CNT: unlocked, but CS.UPDATE was 0");
+      return machine_.fail({"RTWDOG CNT: unlocked, but CS.UPDATE was 0", WatchdogProblem::update_forbidden});
     if (machine_.runs_from_flash())
       return machine_.fail(
-          "RTWDOG CNT: unlocked by code in the flash, whose next fetch may outlast the 128 bus clocks");
+          {"RTWDOG CNT: unlocked by code in the flash, whose next fetch may outlast the 128 bus clocks",
+           WatchdogProblem::unlocked_from_flash});
     unlocked_until_ = machine_.now() + kWindow;
     configured_ = false;
   } else if (key == kRefresh) {
@@ -62,7 +63,8 @@ void Rtwdog::write_key(std::uint32_t value) {
     half_key_ = value;
     return;
   } else {
-    machine_.fail("RTWDOG CNT: neither the key that unlocks nor the one that feeds");
+    machine_.fail(
+        {"RTWDOG CNT: neither the key that unlocks nor the one that feeds", WatchdogProblem::wrong_key});
   }
   half_key_ = 0;
 }
@@ -70,14 +72,17 @@ void Rtwdog::write_key(std::uint32_t value) {
 /// Outside the window the chip silently ignores the write, so it ends the run here.
 void Rtwdog::configure(std::uint32_t offset, std::uint32_t value) {
   if (!unlocked())
-    return machine_.fail("RTWDOG: configured without the key, or more than 128 bus clocks after it");
+    return machine_.fail({"RTWDOG: configured without the key, or more than 128 bus clocks after it",
+                          WatchdogProblem::not_unlocked});
   if (offset == rtwdog::TOVAL.value) timeout_counts_ = value & 0xFFFF;
   if (offset == rtwdog::WIN.value) window_ = value & 0xFFFF;
   if (offset != rtwdog::CS.value) return;
   if (rtwdog::CS_CLK.of(value) != kLpo)
-    return machine_.fail("RTWDOG CS: only the 32 kHz oscillator is modelled");
+    return machine_.fail(
+        {"RTWDOG CS: only the 32 kHz oscillator is modelled", WatchdogProblem::clock_not_modelled});
   if ((value & kWindowOrInterrupt) != 0)
-    return machine_.fail("RTWDOG CS: neither its window nor its interrupt is modelled");
+    return machine_.fail({"RTWDOG CS: neither its window nor its interrupt is modelled",
+                          WatchdogProblem::window_not_modelled});
   control_ = value & ~(rtwdog::CS_ULK.mask() | rtwdog::CS_RCS.mask() | rtwdog::CS_FLG.mask());
   configured_ = true;
   unlocked_until_ = 0;

@@ -3,11 +3,24 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <string>
 
 #include "hal/teensy40/registers/registers.hpp"
 #include "host/emulator/core/machine.hpp"
 
 namespace astro::emulator {
+
+/// Which rule of a watchdog was broken. The last two are of WDOG1 and WDOG2; their value is its number.
+enum class WatchdogProblem {
+  update_forbidden,
+  unlocked_from_flash,
+  wrong_key,
+  not_unlocked,
+  clock_not_modelled,
+  window_not_modelled,
+  started_again,
+  power_down_not_stopped
+};
 
 /// Watchdog 3. The boot ROM may or may not have switched it off.
 class Rtwdog : public Model {
@@ -45,12 +58,16 @@ class Wdog : public Model {
   std::uint32_t read(std::uint32_t) override { return counting_ ? 1 : 0; }
   void write(std::uint32_t, std::uint32_t value) override {
     if (!counting_ && (value & 1) != 0)
-      machine_.fail(fmt::format("WDOG{} WMCR: what has been stopped cannot be started again", number_));
+      machine_.fail({fmt::format("WDOG{} WMCR: what has been stopped cannot be started again", number_),
+                     WatchdogProblem::started_again,
+                     {std::to_string(number_)}});
     counting_ = (value & 1) != 0;
     if (!counting_) machine_.wake(*this, kNever);
   }
   void event() override {
-    machine_.fail(fmt::format("WDOG{} WMCR: the power-down counter has run for 16 s", number_));
+    machine_.fail({fmt::format("WDOG{} WMCR: the power-down counter has run for 16 s", number_),
+                   WatchdogProblem::power_down_not_stopped,
+                   {std::to_string(number_)}});
   }
   void reset() override {
     counting_ = true;

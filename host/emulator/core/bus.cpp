@@ -15,18 +15,24 @@ const Bus::Slot* Bus::legal(std::uint32_t address, int bytes, const char* verb) 
   const RegisterName* known = find_register(address);
   const auto slot = slots_.find(address / kPage);
   if (known == nullptr || slot == slots_.end()) {
-    machine_.fail(fmt::format("{}: {} of a register that is not modelled", name_of(address), verb));
+    machine_.fail({fmt::format("{}: {} of a register that is not modelled", name_of(address), verb),
+                   AccessProblem::not_modelled,
+                   {name_of(address), verb}});
     return nullptr;
   }
   if (known->bytes != bytes) {
     machine_.fail(
-        fmt::format("{}: {} of {} bytes, the register has {}", known->name, verb, bytes, known->bytes));
+        {fmt::format("{}: {} of {} bytes, the register has {}", known->name, verb, bytes, known->bytes),
+         AccessProblem::wrong_width,
+         {known->name, verb, std::to_string(bytes)}});
     return nullptr;
   }
   const std::optional<Gate>& gate = slot->second.gate;
   if (gate && !machine_.clocked(*gate)) {
-    machine_.fail(fmt::format("{}: {} while its clock is off (CCM CCGR{} CG{})", known->name, verb, gate->reg,
-                              gate->index));
+    machine_.fail({fmt::format("{}: {} while its clock is off (CCM CCGR{} CG{})", known->name, verb,
+                               gate->reg, gate->index),
+                   AccessProblem::clock_off,
+                   {known->name, verb, std::to_string(gate->reg), std::to_string(gate->index)}});
     return nullptr;
   }
   return &slot->second;

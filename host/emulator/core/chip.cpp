@@ -27,6 +27,8 @@ constexpr std::uint32_t kUndefined = 1U << 16, kNotThumb = 1U << 17;
 constexpr std::uint32_t kSvcNumber = 2, kNeverExecuted = 3, kBreakpoint = 7, kReturn = 8, kBreakpointToo = 16;
 constexpr std::uint16_t kCallHalfKay = 0xBEFB, kWaitForEvent = 0xBF20;  // bkpt #251, wfe
 
+std::string digits(std::uint32_t address) { return fmt::format("0x{:08X}", address); }
+
 }  // namespace
 
 Chip::Chip(HandOver hand_over)
@@ -37,18 +39,22 @@ Chip::Chip(HandOver hand_over)
                      [this](std::uint32_t address, int bytes) {
                        if (address < kPrivatePeripherals) return bus_.read(address, bytes);
                        if (find_register(address) == nullptr || bytes != 4)
-                         fail(name_of(address) + ": read of a register that is not modelled");
+                         fail({name_of(address) + ": read of a register that is not modelled",
+                               AccessProblem::not_modelled,
+                               {name_of(address), "read"}});
                        return control_.read(address);
                      },
                      [this](std::uint32_t address, std::uint32_t value, int bytes) {
                        if (address < kPrivatePeripherals) return bus_.write(address, value, bytes);
                        if (find_register(address) == nullptr || bytes != 4)
-                         fail(name_of(address) + ": a write of a register that is not modelled");
+                         fail({name_of(address) + ": a write of a register that is not modelled",
+                               AccessProblem::not_modelled,
+                               {name_of(address), "write"}});
                        control_.write(address, value);
                      },
                      [this](std::uint32_t number) {
                        on_exception(number);
-                       return failure_.empty() && exceptions_.violation.empty() && number != kNeverExecuted;
+                       return !failure_ && !exceptions_.violation && number != kNeverExecuted;
                      },
                      [this](std::uint32_t address) {
                        return address < Memory::kFlash || cached_flash_.stale(address) ||
@@ -72,7 +78,9 @@ void Chip::start(Reset cause) {
 
 /// The ROM either enters a function directly, or takes stack and entry from a vector table.
 void Chip::boot() {
-  if (flash_busy_) fail("NOR flash: the boot ROM reads it while it is busy, and finds nothing");
+  if (flash_busy_)
+    fail({"NOR flash: the boot ROM reads it while it is busy, and finds nothing",
+          ChipProblem::image_in_busy_flash});
   auto entry = load<std::uint32_t>(memory_.at(kImageVectorTable + 4, 4), 0);
   for (const int reg :
        {UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI, UC_ARM_REG_FAULTMASK, UC_ARM_REG_IPSR, UC_ARM_REG_CONTROL})
@@ -80,7 +88,7 @@ void Chip::boot() {
   cpu_->set(UC_ARM_REG_SP, 0);
   if ((entry & 1) == 0) {
     const auto vectors = memory_.at(entry, 8);
-    if (vectors.empty()) return fail("the image's entry is in no memory");
+    if (vectors.empty()) return fail({"the image's entry is in no memory", ChipProblem::entry_in_no_memory});
     cpu_->set(UC_ARM_REG_SP, load<std::uint32_t>(vectors, 0));
     entry = load<std::uint32_t>(vectors, 4);
   }
@@ -133,12 +141,14 @@ void Chip::run_events() {
   }
 }
 
-void Chip::fail(const std::string& what) {
-  if (!failure_.empty()) return;
+void Chip::fail(const Remark& fault) {
+  if (failure_) return;
   const std::uint32_t pc = cpu_->pc() & ~1U;
   const std::string name = symbols.name_at(pc);
-  failure_ = fmt::format("{} (PC 0x{:08X}{}{}, {:.6f} s)", what, pc, name.empty() ? "" : " in ", name,
-                         static_cast<double>(now()) / static_cast<double>(kCyclesPerSecond));
+  Remark stopped = fault;
+  stopped.sentence += fmt::format(" (PC 0x{:08X}{}{}, {:.6f} s)", pc, name.empty() ? "" : " in ", name,
+                                  static_cast<double>(now()) / static_cast<double>(kCyclesPerSecond));
+  failure_.emplace(stopped, pc, name);
 }
 
 void Chip::restart(Reset cause) { restart_ = cause; }
@@ -146,11 +156,15 @@ void Chip::restart(Reset cause) { restart_ = cause; }
 std::span<std::uint8_t> Chip::dma(std::uint32_t address, std::uint32_t bytes) {
   const auto found = memory_.at(address, bytes);
   if (found.empty() || address >= Memory::kFlash || address < Memory::kDtcm) {
-    fail(fmt::format("a bus master goes to 0x{:08X}, which is no RAM", address));
+    fail({"a bus master goes to " + digits(address) + ", which is no RAM",
+          ChipProblem::bus_master_outside_ram,
+          {digits(address)}});
     return {};
   }
   if (control_.cached(address) || (bytes != 0 && control_.cached(address + bytes - 1))) {
-    fail(fmt::format("a bus master goes to 0x{:08X}, which the processor caches", address));
+    fail({"a bus master goes to " + digits(address) + ", which the processor caches",
+          ChipProblem::bus_master_in_cached_memory,
+          {digits(address)}});
     return {};
   }
   return found;
@@ -158,8 +172,8 @@ std::span<std::uint8_t> Chip::dma(std::uint32_t address, std::uint32_t bytes) {
 
 /// Called before each block of instructions: true if the engine must be stopped for something that is due.
 bool Chip::interrupted() {
-  return now() >= std::min(next_event_, end_) || restart_ || !failure_.empty() || in_bootloader_ ||
-         !exceptions_.violation.empty() || access_changed_ || exceptions_.due().has_value();
+  return now() >= std::min(next_event_, end_) || restart_ || failure_ || in_bootloader_ ||
+         exceptions_.violation || access_changed_ || exceptions_.due().has_value();
 }
 
 void Chip::take_exception() {
@@ -190,9 +204,12 @@ void Chip::on_exception(std::uint32_t number) {
     if (instruction == kCallHalfKay)
       in_bootloader_ = true;
     else
-      fail("a breakpoint, which takes a Teensy to its boot loader whatever the motors do");
+      fail({"a breakpoint, which takes a Teensy to its boot loader whatever the motors do",
+            ChipProblem::breakpoint});
   } else {
-    fail(fmt::format("exception {} of the engine", number));
+    fail({fmt::format("exception {} of the engine", number),
+          ChipProblem::exception_of_engine,
+          {std::to_string(number)}});
   }
 }
 
@@ -241,12 +258,15 @@ void Chip::enter_fault(int number, std::uint32_t cause) {
 void Chip::bad_access() {
   const Cpu::BadAccess& bad = cpu_->bad_access();
   if (flash_busy_ && bad.address >= Memory::kFlash && !bad.write)
-    return fail(fmt::format("NOR flash: 0x{:08X} is {} while the flash is busy", bad.address,
-                            bad.fetch ? "executed" : "read"));
+    return fail({fmt::format("NOR flash: {} is {} while the flash is busy", digits(bad.address),
+                             bad.fetch ? "executed" : "read"),
+                 bad.fetch ? ChipProblem::busy_flash_executed : ChipProblem::busy_flash_read,
+                 {digits(bad.address)}});
   if (cached_flash_.stale(bad.address) && !bad.fetch)
-    return fail(
-        fmt::format("data cache: 0x{:08X} is read, whose line may have been fetched while the flash was busy",
-                    bad.address));
+    return fail({"data cache: " + digits(bad.address) +
+                     " is read, whose line may have been fetched while the flash was busy",
+                 ChipProblem::stale_cache_line,
+                 {digits(bad.address)}});
   const Protection::Access allowed = protection_.at(bad.address);
   if (bad.fetch ? allowed.execute : bad.write ? allowed.write : allowed.read) {
     if (!bad.fetch) exceptions_.bfar = bad.address;
@@ -260,13 +280,14 @@ void Chip::bad_access() {
 void Chip::bad_instruction(bool thumb) {
   const auto before = memory_.at((cpu_->pc() & ~1U) - 2, 2);
   const std::uint16_t instruction = before.empty() ? 0 : load<std::uint16_t>(before, 0);
-  if (thumb && instruction == kWaitForEvent) return fail("WFE is not modelled");
+  if (thumb && instruction == kWaitForEvent)
+    return fail({"WFE is not modelled", ChipProblem::wait_for_event_not_modelled});
   enter_fault(exception::kUsageFault, thumb ? cause::kUndefined : cause::kNotThumb);
 }
 
 void Chip::run_cpu() {
   const Cpu::End end = cpu_->run();
-  if (in_bootloader_ || !failure_.empty()) return;
+  if (in_bootloader_ || failure_) return;
   if (end == Cpu::End::sleeping) sleep(end_);
   if (end == Cpu::End::bad_access) bad_access();
   if (end == Cpu::End::bad_instruction || end == Cpu::End::not_thumb)
@@ -278,7 +299,7 @@ void Chip::skip_to(Cycles when) {
 }
 
 void Chip::sleep(Cycles end) {
-  while (!exceptions_.wakes() && !restart_ && failure_.empty()) {
+  while (!exceptions_.wakes() && !restart_ && !failure_) {
     if (next_event_ >= end) {
       skip_to(end);
       return;
@@ -292,14 +313,14 @@ void Chip::run_until(Cycles end) {
   end_ = end;
   while (now() < end && !in_bootloader_) {
     run_events();
-    if (!exceptions_.violation.empty()) fail(exceptions_.violation);
-    if (!failure_.empty()) throw Stopped(failure_);
+    if (exceptions_.violation) fail(*exceptions_.violation);
+    if (failure_) throw Stopped(*failure_);
     if (restart_) start(*std::exchange(restart_, std::nullopt));
     if (access_changed_) apply_access();
     take_exception();
-    if (exceptions_.violation.empty()) run_cpu();
+    if (!exceptions_.violation) run_cpu();
   }
-  if (!failure_.empty()) throw Stopped(failure_);
+  if (failure_) throw Stopped(*failure_);
   if (in_bootloader_) skip_to(end);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,20 @@ namespace astro::emulator {
 /// The state that the boot ROM leaves behind. `untidy`: every state is as bad as no manual excludes: MPU on,
 /// interrupts enabled and pending, every mask set, the process stack in use, USB still attached.
 enum class HandOver : std::uint8_t { tidy, untidy };
+
+/// What the processor or a bus master cannot do. A value is the address, or an exception's number.
+enum class ChipProblem {
+  image_in_busy_flash,
+  entry_in_no_memory,
+  bus_master_outside_ram,
+  bus_master_in_cached_memory,
+  breakpoint,
+  exception_of_engine,
+  busy_flash_read,
+  busy_flash_executed,
+  stale_cache_line,
+  wait_for_event_not_modelled
+};
 
 /// Processor, memories, interrupt controller and virtual time: the machine into which models are put.
 class Chip : public Machine {
@@ -59,7 +74,7 @@ class Chip : public Machine {
   Cycles now() const override { return skipped_ + cpu_->instructions(); }
   void set_interrupt(int irq, bool level) override { exceptions_.set_line(irq, level); }
   void wake(Model& model, Cycles when) override;
-  void fail(const std::string& what) override;
+  void fail(const Remark& fault) override;
   bool clocked(Gate gate) const override { return gates(gate); }
   void wait(Cycles time) override { skipped_ += time; }
   bool runs_from_flash() const override { return cpu_->pc() >= Memory::kFlash; }
@@ -102,7 +117,7 @@ class Chip : public Machine {
   Cycles skipped_ = 0;  // time in which no instruction ran
   Cycles next_event_ = kNever, end_ = 0;
   CachedFlash cached_flash_;
-  std::string failure_;
+  std::optional<Stopped> failure_;
   std::optional<Reset> restart_;
   bool in_bootloader_ = false, flash_busy_ = false, access_changed_ = true;
 };

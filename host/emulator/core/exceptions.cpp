@@ -26,7 +26,7 @@ void Exceptions::reset() {
   vector_table = 0;
   mem_manage_enabled = bus_fault_enabled = usage_fault_enabled = false;
   cfsr = hfsr = mmfar = bfar = 0;
-  violation.clear();
+  violation.reset();
 }
 
 void Exceptions::leave_rom_state() {
@@ -115,7 +115,8 @@ std::optional<int> Exceptions::push_frame(std::uint32_t sp, std::uint32_t frame)
 bool Exceptions::enter(int number) {
   const std::uint32_t sp = cpu_.get(UC_ARM_REG_SP), frame = (sp - kFrameBytes) & ~7U;
   const bool nested = running() != 0;
-  if ((cpu_.get(UC_ARM_REG_CONTROL) & kProcessStack) != 0) violation = "the process stack is not modelled";
+  if ((cpu_.get(UC_ARM_REG_CONTROL) & kProcessStack) != 0)
+    violation = {"the process stack is not modelled", ExceptionProblem::process_stack_used};
   if (const std::optional<int> failed = push_frame(sp, frame)) {
     // The intended exception stays pending; the handler of this fault runs without a frame.
     const std::optional<int> derived = level(number) < 0 ? std::nullopt : fault(*failed);
@@ -132,7 +133,9 @@ bool Exceptions::enter(int number) {
   if (const auto entry = memory_.at(vector_table + 4 * static_cast<std::uint32_t>(number), 4); !entry.empty())
     handler = load<std::uint32_t>(entry, 0);
   if ((handler & 1) == 0 || memory_.at(handler & ~1U, 2).empty())
-    violation = fmt::format("exception {} has no handler in the vector table", number);
+    violation = {fmt::format("exception {} has no handler in the vector table", number),
+                 ExceptionProblem::no_handler,
+                 {std::to_string(number)}};
   cpu_.set(UC_ARM_REG_PC, handler);
   cpu_.refresh();
   return true;
@@ -141,12 +144,14 @@ bool Exceptions::enter(int number) {
 void Exceptions::leave(std::uint32_t return_value) {
   const int number = running();
   if (number == 0 || !active_[index(number)]) {
-    violation = "a return from an exception that does not run";
+    violation = {"a return from an exception that does not run", ExceptionProblem::return_from_none};
     return;
   }
   if ((return_value & 0x1C) != 0x18 && (return_value & 0x1C) != 0x10) {
-    violation =
-        fmt::format("EXC_RETURN 0x{:08X} asks for a stack or a context that is not used here", return_value);
+    const std::string shown = fmt::format("0x{:08X}", return_value);
+    violation = {"EXC_RETURN " + shown + " asks for a stack or a context that is not used here",
+                 ExceptionProblem::context_unused_here,
+                 {shown}};
     return;
   }
   active_[index(number)] = false;
@@ -155,7 +160,10 @@ void Exceptions::leave(std::uint32_t return_value) {
   const std::uint32_t sp = cpu_.get(UC_ARM_REG_SP);
   const auto stack = memory_.at(sp, kFrameBytes);
   if (stack.empty()) {
-    violation = fmt::format("the stack at 0x{:08X} is no memory to return from", sp);
+    const std::string shown = fmt::format("0x{:08X}", sp);
+    violation = {"the stack at " + shown + " is no memory to return from",
+                 ExceptionProblem::stack_in_no_memory,
+                 {shown}};
     return;
   }
   std::array<std::uint32_t, 8> words{};

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "host/base/error.hpp"
 #include "host/emulator/core/cpu.hpp"
 
 namespace astro::emulator {
@@ -14,6 +15,16 @@ namespace exception {
 inline constexpr int kNmi = 2, kHardFault = 3, kMemManage = 4, kBusFault = 5, kUsageFault = 6, kSvc = 11,
                      kPendSv = 14, kSysTick = 15, kFirstInterrupt = 16, kCount = 16 + 160;
 }
+
+/// What is wrong with the entry into a handler or the return from it. The value is the exception's number,
+/// the value that it returns with, or the address of the stack.
+enum class ExceptionProblem {
+  process_stack_used,
+  no_handler,
+  return_from_none,
+  context_unused_here,
+  stack_in_no_memory
+};
 
 /// The nested vectored interrupt controller, and how the core enters and leaves handlers.
 ///
@@ -60,7 +71,7 @@ class Exceptions {
   std::optional<int> fault(int number, std::uint32_t cause = 0);
 
   /// The rule that the firmware broke, if any: no handler, a return without an exception.
-  std::string violation;
+  std::optional<Remark> violation;
 
  private:
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }

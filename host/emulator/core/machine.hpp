@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "host/base/error.hpp"
 
@@ -39,9 +40,10 @@ class Machine {
   /// Calls model.event() at `when`, replacing an earlier request of the same model; kNever cancels it.
   virtual void wake(Model& model, Cycles when) = 0;
 
-  /// Ends the run because the firmware did something that fails on the chip. `what` names the register and
-  /// the rule; the machine adds PC and time. May be called anywhere; later calls are ignored.
-  virtual void fail(const std::string& what) = 0;
+  /// Ends the run because the firmware did something that fails on the chip. The sentence of `fault` names
+  /// the register and the rule; the machine adds PC and time. May be called anywhere; later calls are
+  /// ignored.
+  virtual void fail(const Remark& fault) = 0;
 
   /// True while the gate lets the clock through in run mode.
   virtual bool clocked(Gate gate) const = 0;
@@ -79,10 +81,19 @@ class Model {
 };
 
 /// The run has ended because the firmware did something that fails on the chip. The message names the
-/// register and the rule, the program counter and the time.
+/// register and the rule, the program counter and the time; kind and values are those of the model.
 class Stopped : public Error {
  public:
-  using Error::Error;
+  /// `function`: the one at the program counter, with the offset in it; "" if there is no symbol.
+  Stopped(const Remark& fault, std::uint32_t pc, std::string function)
+      : Error(fault), pc_(pc), function_(std::move(function)) {}
+
+  std::uint32_t pc() const { return pc_; }
+  const std::string& function() const { return function_; }
+
+ private:
+  std::uint32_t pc_;
+  std::string function_;
 };
 
 }  // namespace astro::emulator

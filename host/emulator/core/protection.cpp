@@ -100,12 +100,16 @@ void Protection::set_attributes(std::uint32_t value) {
   Region& region = regions_[selected_];
   region.attributes = value;
   if (!enabled(region)) return;
-  if (region.bytes() < 32) machine_.fail("MPU RASR: a region has at least 32 bytes");
+  if (region.bytes() < 32)
+    machine_.fail({"MPU RASR: a region has at least 32 bytes", RegionProblem::too_small});
   if (region.base % region.bytes() != 0)
-    machine_.fail("MPU RASR: the region does not begin at a multiple of its size");
-  if ((value & kSubregions) != 0) machine_.fail("MPU RASR: subregions are not modelled");
+    machine_.fail(
+        {"MPU RASR: the region does not begin at a multiple of its size", RegionProblem::misaligned});
+  if ((value & kSubregions) != 0)
+    machine_.fail({"MPU RASR: subregions are not modelled", RegionProblem::subregions});
   if (region.bytes() < kPage && !no_access(region))
-    machine_.fail("MPU RASR: a region below 1 KB that gives some access is not modelled");
+    machine_.fail({"MPU RASR: a region below 1 KB that gives some access is not modelled",
+                   RegionProblem::small_with_access});
 }
 
 void Protection::write(std::uint32_t offset, std::uint32_t value) {
@@ -116,7 +120,7 @@ void Protection::write(std::uint32_t offset, std::uint32_t value) {
   } else if (offset == mpu::RNR.value) {
     selected_ = value % regions_.size();
   } else if (on_) {
-    machine_.fail("MPU: a region is programmed while the MPU is on (CTRL.ENABLE)");
+    machine_.fail({"MPU: a region is programmed while the MPU is on (CTRL.ENABLE)", RegionProblem::mpu_on});
   } else if (offset == mpu::RBAR.value) {
     if (mpu::RBAR_VALID.of(value) != 0) selected_ = mpu::RBAR_REGION.of(value);
     regions_[selected_].base = value & ~0x1FU;

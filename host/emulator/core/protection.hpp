@@ -9,6 +9,9 @@
 
 namespace astro::emulator {
 
+/// What is wrong with a region of the MPU.
+enum class RegionProblem { too_small, misaligned, subregions, small_with_access, mpu_on };
+
 /// The MPU as the firmware has set it (ARMv7-M PMSA, privileged accesses).
 ///
 /// Not modelled  subregions; HFNMIENA: the regions also hold in the handlers of NMI and HardFault, which on

@@ -113,15 +113,19 @@ void SystemControl::write_icsr(std::uint32_t value) {
 }
 
 void SystemControl::write_aircr(std::uint32_t value) {
-  if (scb::AIRCR_VECTKEY.of(value) != kResetKey) return machine_.fail("SCB AIRCR: written without its key");
-  if ((value & kPriorityGroup) != 0) machine_.fail("SCB AIRCR: subpriorities are not modelled");
+  if (scb::AIRCR_VECTKEY.of(value) != kResetKey)
+    return machine_.fail({"SCB AIRCR: written without its key", ControlProblem::reset_without_key});
+  if ((value & kPriorityGroup) != 0)
+    machine_.fail({"SCB AIRCR: subpriorities are not modelled", ControlProblem::subpriorities});
   if (scb::AIRCR_SYSRESETREQ.of(value) != 0) machine_.restart(Reset::software);
 }
 
 void SystemControl::write_scb(std::uint32_t offset, std::uint32_t value) {
   if (offset == scb::ICSR.value) return write_icsr(value);
   if (offset == scb::VTOR.value) {
-    if (value % 1024 != 0) machine_.fail("SCB VTOR: a table of 176 entries must lie at a multiple of 1024");
+    if (value % 1024 != 0)
+      machine_.fail({"SCB VTOR: a table of 176 entries must lie at a multiple of 1024",
+                     ControlProblem::vectors_misaligned});
     exceptions_.vector_table = value;
   } else if (offset == scb::AIRCR.value) {
     write_aircr(value);
@@ -160,7 +164,8 @@ void SystemControl::write_tick(std::uint32_t offset, std::uint32_t value) {
   if (offset == systick::CSR.value) {
     const bool starts = (tick_control_ & 1) == 0 && (value & 1) != 0;
     if (tick_at_ != kNever && (value & 1) != 0 && ((tick_control_ ^ value) & 4) != 0)
-      machine_.fail("SysTick CSR: the clock is changed while it counts");
+      machine_.fail(
+          {"SysTick CSR: the clock is changed while it counts", ControlProblem::tick_clock_changed});
     tick_control_ = value & 7;
     if (starts) tick_at_ = machine_.now() + tick_cycles();
     if ((value & 1) == 0) tick_at_ = kNever;
@@ -178,7 +183,9 @@ std::uint32_t SystemControl::counter() const {
 
 void SystemControl::write_trace(std::uint32_t address, std::uint32_t value) {
   if (dcb::DEMCR_TRCENA.of(demcr_) == 0)
-    return machine_.fail(name_of(address) + ": tracing is not enabled in DCB DEMCR");
+    return machine_.fail({name_of(address) + ": tracing is not enabled in DCB DEMCR",
+                          ControlProblem::tracing_off,
+                          {name_of(address)}});
   const std::uint32_t count = address == DWT[dwt::CYCCNT].address() ? value : counter();
   if (address == DWT[dwt::CTRL].address()) counting_ = (value & 1) != 0;
   counter_held_ = count;

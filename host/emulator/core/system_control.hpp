@@ -9,6 +9,15 @@
 
 namespace astro::emulator {
 
+/// Which rule of the core's own registers was broken. The value of tracing_off is the register.
+enum class ControlProblem {
+  reset_without_key,
+  subpriorities,
+  vectors_misaligned,
+  tick_clock_changed,
+  tracing_off
+};
+
 /// The core's own registers at 0xE0000000: NVIC, SCB, SysTick, MPU, cycle counter.
 class SystemControl {
  public:

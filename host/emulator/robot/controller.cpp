@@ -41,12 +41,18 @@ void UsbController::leave_bus() {
 
 void UsbController::attach() {
   if (usb::USBMODE_CM.of(mode_) != kDevice)
-    machine_.fail("USB1 USBCMD: attached before USBMODE makes it a device");
-  if (!clocked_()) machine_.fail("USB1 USBCMD: attached without its PLL or with the transceiver off");
-  if (list_ == 0) machine_.fail("USB1 USBCMD: attached without queue heads (ENDPTLISTADDR)");
+    machine_.fail(
+        {"USB1 USBCMD: attached before USBMODE makes it a device", UsbProblem::attached_before_device_mode});
+  if (!clocked_())
+    machine_.fail({"USB1 USBCMD: attached without its PLL or with the transceiver off",
+                   UsbProblem::attached_without_clock});
+  if (list_ == 0)
+    machine_.fail({"USB1 USBCMD: attached without queue heads (ENDPTLISTADDR)",
+                   UsbProblem::attached_without_queue_heads});
   if (on_bus_ || (known_ && machine_.now() - left_at_ < kNoticed))
     machine_.fail(
-        "USB1 USBCMD: attached again less than 256 ms after it left the bus, which a host may miss");
+        {"USB1 USBCMD: attached again less than 256 ms after it left the bus, which a host may miss",
+         UsbProblem::attached_again_too_soon});
   on_bus_ = known_ = true;
 }
 
@@ -141,7 +147,9 @@ Handshake UsbController::out(std::uint8_t address, int endpoint, std::span<const
   if (!endpoints_.pipe(endpoint, false).expects(data1)) return Handshake::ack;
   const QueueHead queue_head = head(endpoint, false);
   if (bytes.size() > queue_head.bytes_left()) {
-    machine_.fail(fmt::format("USB1: endpoint {} receives more than its transfer takes", endpoint));
+    machine_.fail({fmt::format("USB1: endpoint {} receives more than its transfer takes", endpoint),
+                   UsbProblem::too_many_bytes,
+                   {std::to_string(endpoint)}});
     return Handshake::stall;
   }
   endpoints_.pipe(endpoint, false).out(queue_head, bytes);
@@ -159,13 +167,19 @@ void UsbController::note_complete(int endpoint, bool in) {
 void UsbController::prime(int endpoint, bool in) {
   if (missed_reset_)
     return machine_.fail(
-        "USB1 ENDPTPRIME: a bus reset ended with transfers primed, and the controller was not reset");
+        {"USB1 ENDPTPRIME: a bus reset ended with transfers primed, and the controller was not reset",
+         UsbProblem::primed_without_reset});
   if (endpoints_.pipe(endpoint, in).primed())
-    return machine_.fail(fmt::format("USB1 ENDPTPRIME: endpoint {} has a transfer under way", endpoint));
+    return machine_.fail({fmt::format("USB1 ENDPTPRIME: endpoint {} has a transfer under way", endpoint),
+                          UsbProblem::transfer_under_way,
+                          {std::to_string(endpoint)}});
   if (endpoint == 0 && setup_waiting_ != 0)
-    return machine_.fail("USB1 ENDPTPRIME: endpoint 0 is primed while a SETUP packet waits");
+    return machine_.fail(
+        {"USB1 ENDPTPRIME: endpoint 0 is primed while a SETUP packet waits", UsbProblem::setup_waits, {"0"}});
   if (!endpoints_.enabled(endpoint, in))
-    return machine_.fail(fmt::format("USB1 ENDPTPRIME: endpoint {} is not enabled", endpoint));
+    return machine_.fail({fmt::format("USB1 ENDPTPRIME: endpoint {} is not enabled", endpoint),
+                          UsbProblem::not_enabled,
+                          {std::to_string(endpoint)}});
   const QueueHead queue_head = head(endpoint, in);
   if (queue_head.exists()) endpoints_.pipe(endpoint, in).prime(queue_head);
 }
@@ -189,7 +203,9 @@ std::uint32_t UsbController::read(std::uint32_t offset) {
 }
 
 void UsbController::refuse(std::uint32_t offset) {
-  machine_.fail(name_of(USB1.base + offset) + ": not modelled");
+  machine_.fail({name_of(USB1.base + offset) + ": not modelled",
+                 UsbProblem::not_modelled,
+                 {name_of(USB1.base + offset)}});
 }
 
 void UsbController::write_command(std::uint32_t value) {
@@ -209,7 +225,9 @@ void UsbController::write(std::uint32_t offset, std::uint32_t value) {
   if (offset == usb::USBINTR.value) enable_ = value;
   if (offset == usb::USBMODE.value) mode_ = value;
   if (offset == usb::ENDPTLISTADDR.value) {
-    if (value % 2048 != 0) machine_.fail("USB1 ENDPTLISTADDR: the queue heads are not aligned to 2 KB");
+    if (value % 2048 != 0)
+      machine_.fail({"USB1 ENDPTLISTADDR: the queue heads are not aligned to 2 KB",
+                     UsbProblem::queue_heads_misaligned});
     list_ = value;
   }
   if (offset == usb::DEVICEADDR.value) {
@@ -222,7 +240,8 @@ void UsbController::write(std::uint32_t offset, std::uint32_t value) {
   if (offset == usb::ENDPTFLUSH.value) endpoints_.flush(value);
   if (offset == usb::ENDPTPRIME.value) {
     if (usb::USBMODE_CM.of(mode_) != kDevice)
-      machine_.fail("USB1 ENDPTPRIME: primed before USBMODE makes it a device");
+      machine_.fail({"USB1 ENDPTPRIME: primed before USBMODE makes it a device",
+                     UsbProblem::primed_before_device_mode});
     for (int endpoint = 0; endpoint < static_cast<int>(Endpoints::kCount); ++endpoint)
       for (const bool in : {false, true})
         if ((value & Endpoints::bit_of(endpoint, in)) != 0) prime(endpoint, in);

@@ -11,6 +11,22 @@
 
 namespace astro::emulator {
 
+/// Which rule of the controller was broken. The value is an endpoint's number; of not_modelled the register.
+enum class UsbProblem {
+  attached_before_device_mode,
+  attached_without_clock,
+  attached_without_queue_heads,
+  attached_again_too_soon,
+  queue_heads_misaligned,
+  not_modelled,
+  primed_before_device_mode,
+  primed_without_reset,
+  transfer_under_way,
+  setup_waits,
+  not_enabled,
+  too_many_bytes
+};
+
 /// The device controller USB1: its registers towards the firmware, and the bus towards a host. Packets go
 /// through the pipes of its endpoints, whose transfers are in memory (endpoints.hpp).
 /// Before a known device attaches again, it must be detached long enough for any host to notice.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 #include "hal/teensy40/registers/registers.hpp"
 #include "host/base/bytes.hpp"
@@ -38,22 +40,32 @@ bool names_its_pages(std::span<const std::uint8_t> transfer) {
   return true;
 }
 
-/// What is wrong with a descriptor; null if nothing is.
-const char* fault_of(std::span<const std::uint8_t> transfer) {
-  if ((word(transfer, 1) & kActive) == 0) return "the transfer is not active";
-  if ((word(transfer, 0) & 1) == 0) return "lists of transfers are not modelled";
-  if ((word(transfer, 1) & kInterruptWhenDone) == 0) return "a transfer without IOC is not modelled";
-  if (!names_its_pages(transfer)) return "the transfer does not name the pages that follow its first";
-  return nullptr;
+/// What is wrong with a descriptor.
+std::optional<Remark> fault_of(std::span<const std::uint8_t> transfer) {
+  if ((word(transfer, 1) & kActive) == 0)
+    return Remark{"USB1 ENDPTPRIME: the transfer is not active", EndpointProblem::transfer_inactive};
+  if ((word(transfer, 0) & 1) == 0)
+    return Remark{"USB1 ENDPTPRIME: lists of transfers are not modelled", EndpointProblem::list_not_modelled};
+  if ((word(transfer, 1) & kInterruptWhenDone) == 0)
+    return Remark{"USB1 ENDPTPRIME: a transfer without IOC is not modelled",
+                  EndpointProblem::no_interrupt_when_done};
+  if (!names_its_pages(transfer))
+    return Remark{"USB1 ENDPTPRIME: the transfer does not name the pages that follow its first",
+                  EndpointProblem::pages_missing};
+  return std::nullopt;
 }
 
 /// The same of the queue head that names it.
-const char* fault_of_head(std::span<const std::uint8_t> head) {
+std::optional<Remark> fault_of_head(std::span<const std::uint8_t> head) {
   const std::uint32_t next = word(head, 2);
-  if ((next & 1) != 0) return "the queue head names no transfer";
-  if (next % kTransferBytes != 0) return "a transfer that is not aligned to 32 bytes";
-  if ((word(head, 3) & kHalted) != 0) return "the queue head is halted";
-  return nullptr;
+  if ((next & 1) != 0)
+    return Remark{"USB1 ENDPTPRIME: the queue head names no transfer", EndpointProblem::no_transfer};
+  if (next % kTransferBytes != 0)
+    return Remark{"USB1 ENDPTPRIME: a transfer that is not aligned to 32 bytes",
+                  EndpointProblem::transfer_misaligned};
+  if ((word(head, 3) & kHalted) != 0)
+    return Remark{"USB1 ENDPTPRIME: the queue head is halted", EndpointProblem::head_halted};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -69,15 +81,15 @@ void QueueHead::store_setup(const std::array<std::uint8_t, 8>& packet) {
 }
 
 bool QueueHead::load_transfer() {
-  const auto refuse = [this](const char* fault) {
-    machine_.fail(std::string("USB1 ENDPTPRIME: ") + fault);
+  const auto refuse = [this](const Remark& fault) {
+    machine_.fail(fault);
     return false;
   };
-  if (const char* fault = fault_of_head(bytes_)) return refuse(fault);
+  if (const auto fault = fault_of_head(bytes_)) return refuse(*fault);
   const std::uint32_t next = word(bytes_, 2);
   const auto transfer = machine_.dma(next, kTransferBytes);
   if (transfer.empty()) return false;
-  if (const char* fault = fault_of(transfer)) return refuse(fault);
+  if (const auto fault = fault_of(transfer)) return refuse(*fault);
   set_word(bytes_, 1, next);
   for (std::size_t i = 0; i < 7; ++i) set_word(bytes_, 2 + i, word(transfer, i));
   return true;
@@ -156,11 +168,15 @@ void Endpoints::write_control(std::size_t number, std::uint32_t value, Machine& 
     const bool in = usb::ENDPTCTRL1_TXE.of(value) != 0, out = usb::ENDPTCTRL1_RXE.of(value) != 0;
     if ((!in && pipe(endpoint, true).primed()) || (!out && pipe(endpoint, false).primed()))
       machine.fail(
-          fmt::format("USB1 ENDPTCTRL{}: switched off with a transfer under way: flush it first", endpoint));
+          {fmt::format("USB1 ENDPTCTRL{}: switched off with a transfer under way: flush it first", endpoint),
+           EndpointProblem::transfer_under_way,
+           {std::to_string(endpoint)}});
     if ((in && usb::ENDPTCTRL1_RXT.of(value) == kControlType) ||
         (out && usb::ENDPTCTRL1_TXT.of(value) == kControlType))
       machine.fail(
-          fmt::format("USB1 ENDPTCTRL{}: the direction without use is left as a control endpoint", endpoint));
+          {fmt::format("USB1 ENDPTCTRL{}: the direction without use is left as a control endpoint", endpoint),
+           EndpointProblem::unused_direction_is_control,
+           {std::to_string(endpoint)}});
     if (usb::ENDPTCTRL1_TXR.of(value) != 0) pipe(endpoint, true).begin_with_data0();
     if (usb::ENDPTCTRL1_RXR.of(value) != 0) pipe(endpoint, false).begin_with_data0();
   }

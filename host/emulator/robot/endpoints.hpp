@@ -12,6 +12,20 @@
 /// memory behind the queue heads.
 namespace astro::emulator {
 
+/// What is wrong with a queue head, its transfer or an endpoint's control register. The value of the last two
+/// is the endpoint's number.
+enum class EndpointProblem {
+  no_transfer,
+  transfer_misaligned,
+  head_halted,
+  transfer_inactive,
+  list_not_modelled,
+  no_interrupt_when_done,
+  pages_missing,
+  transfer_under_way,
+  unused_direction_is_control
+};
+
 /// The queue head of one direction of an endpoint in the machine's memory, with its copy of the transfer
 /// descriptor under way, read and written as the chip's bus master does it.
 ///

@@ -57,7 +57,8 @@ int refer_to(const std::string& device) {
 
 PathClaim claim(const fs::path& link) {
   if (auto claim = PathClaim::of(link)) return std::move(*claim);
-  throw Error("'" + link.string() + "' is in use by another simulator", ServerProblem::path_in_use);
+  throw Error("'" + link.string() + "' is in use by another simulator", ServerProblem::path_in_use,
+              {link.string()});
 }
 
 /// Whether it is the link of a simulator, which has ended if nobody has claimed the link, or leads nowhere.
@@ -86,12 +87,13 @@ void make_link(const fs::path& target, const fs::path& link) {
   if (left_behind(link)) {
     fs::remove(link);
   } else if (fs::exists(fs::symlink_status(link))) {
-    throw Error("'" + link.string() + "' exists and is not a simulator's", ServerProblem::path_taken);
+    throw Error("'" + link.string() + "' exists and is not a simulator's", ServerProblem::path_taken,
+                {link.string()});
   }
   fs::create_symlink(target, link, error);
   if (error)
     throw Error("'" + link.string() + "' cannot be made (" + error.message() + ")",
-                ServerProblem::path_refused);
+                ServerProblem::path_refused, {link.string()});
 }
 
 }  // namespace

@@ -9,8 +9,9 @@
 
 namespace astro::simulation {
 
-/// What keeps a simulator from serving at a path.
-enum class ServerProblem { path_in_use, path_taken, path_refused, path_too_long };
+/// What keeps a simulator from serving at a path, which is the value. The last one is about the file of its
+/// flash.
+enum class ServerProblem { path_in_use, path_taken, path_refused, path_too_long, flash_is_link };
 
 /// The robot's end of a pseudo terminal, and a symlink by which hosts find the other end. Raw from the start:
 /// nothing is echoed or translated, whoever opens it.

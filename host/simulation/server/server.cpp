@@ -142,7 +142,8 @@ std::vector<std::uint8_t> load_flash(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path);
   if (fs::is_symlink(status))
     throw Error("'" + path.string() +
-                "' is a link, and saving the robot's flash would replace the link: name the file itself");
+                    "' is a link, and saving the robot's flash would replace the link: name the file itself",
+                ServerProblem::flash_is_link, {path.string()});
   return fs::exists(status) ? load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
 }
 
@@ -272,7 +273,7 @@ void Server::claim_flash() {
   flash_claim_ = PathClaim::of(config_.flash);
   if (!flash_claim_)
     throw Error(fmt::format("the robot's flash '{}' is in use by another simulator", config_.flash.string()),
-                ServerProblem::path_in_use);
+                ServerProblem::path_in_use, {config_.flash.string()});
 }
 
 void Server::save_flash() {

@@ -21,7 +21,7 @@ int listen_at(const std::filesystem::path& path) {
   address.sun_family = AF_UNIX;
   const std::string text = path.string();
   if (text.size() >= sizeof(address.sun_path))
-    throw Error("the path '" + text + "' is too long for a socket", ServerProblem::path_too_long);
+    throw Error("the path '" + text + "' is too long for a socket", ServerProblem::path_too_long, {text});
   std::strcpy(address.sun_path, text.c_str());
   std::error_code ignored;
   if (std::filesystem::is_socket(path, ignored)) std::filesystem::remove(path, ignored);

@@ -9,12 +9,19 @@
 /// Limits that set-ups and programmes have to keep.
 namespace astro::simulation::study {
 
+/// What a set-up or a programme exceeds. Values of out_of_range: what it is, and its value; of exceeds_memory
+/// the hours of driving.
+enum class LimitProblem { out_of_range, exceeds_memory };
+
 /// Drives are held in memory as a whole; 20 million samples of counts and ground truth are about 1 GB.
 inline void require_fits_memory(double driving_time_s, double truth_rate_hz, double count_rate_hz) {
   constexpr double kMostSamples = 20e6;
   if (driving_time_s * (truth_rate_hz + count_rate_hz) <= kMostSamples) return;
-  throw Error("some " + std::to_string(std::llround(driving_time_s / 3600)) +
-              " hours of driving are more than fit into memory: take fewer or shorter runs, or lower rates");
+  const std::string hours = std::to_string(std::llround(driving_time_s / 3600));
+  throw Error(
+      "some " + hours +
+          " hours of driving are more than fit into memory: take fewer or shorter runs, or lower rates",
+      LimitProblem::exceeds_memory, {hours});
 }
 
 }  // namespace astro::simulation::study

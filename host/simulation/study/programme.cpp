@@ -43,10 +43,13 @@ void require_runs(const Counts& counts) {
   for (std::size_t kind = 0; kind < kKinds; ++kind)
     if (counts[kind] < 0 || counts[kind] > kMostRuns)
       throw Error("the number of " + std::string(kKindNames[kind]) + " is " + std::to_string(counts[kind]) +
-                  ": it has to be 0 to " + std::to_string(kMostRuns));
+                      ": it has to be 0 to " + std::to_string(kMostRuns),
+                  LimitProblem::out_of_range,
+                  {"the number of " + std::string(kKindNames[kind]), std::to_string(counts[kind])});
   if (const int runs = total(counts); runs > kMostRuns)
     throw Error("the programme has " + std::to_string(runs) + " runs and " + std::to_string(kMostRuns) +
-                " are the most: drive longer ones");
+                    " are the most: drive longer ones",
+                ProgrammeProblem::too_many_runs, {std::to_string(runs)});
   if (const auto why = why_undetermined(counts)) throw Error(*why);
 }
 
@@ -103,15 +106,20 @@ DriveModel model_of(const Programme& programme) {
 
 std::optional<Remark> why_undetermined(const Counts& counts) {
   const int runs = total(counts);
-  if (runs == 0) return Remark{"the programme is empty: say how many squares, lines, spins or circles"};
+  if (runs == 0)
+    return Remark{"the programme is empty: say how many squares, lines, spins or circles",
+                  ProgrammeProblem::no_runs};
   if (counts[kLines] == runs)
-    return Remark{"lines never turn, so they do not determine the wheelbase: add squares, spins or circles"};
+    return Remark{"lines never turn, so they do not determine the wheelbase: add squares, spins or circles",
+                  ProgrammeProblem::lines_alone};
   if (counts[kSpins] == runs)
     return Remark{
-        "spins determine the ratio of wheels and wheelbase but no size: add squares, lines or circles"};
+        "spins determine the ratio of wheels and wheelbase but no size: add squares, lines or circles",
+        ProgrammeProblem::spins_alone};
   if (counts[kCircles] == 1 && runs == 1)
     return Remark{
-        "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two"};
+        "one circle turns in one direction only, which does not separate wheels and wheelbase: drive two",
+        ProgrammeProblem::one_circle};
   return std::nullopt;
 }
 

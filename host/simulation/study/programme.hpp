@@ -24,6 +24,18 @@ inline constexpr std::array<std::string_view, kKinds> kKindNames = {"squares", "
 /// forwards.
 using Counts = std::array<int, kKinds>;
 
+/// What a programme cannot determine or exceeds. The value of too_many_runs is how many it has.
+enum class ProgrammeProblem {
+  no_runs,
+  lines_alone,
+  spins_alone,
+  one_circle,
+  no_circles,
+  no_squares_nor_spins,
+  too_many_runs,
+  precision_too_fine
+};
+
 /// Why these runs, of any size, cannot determine all three factors; nothing if they can.
 std::optional<Remark> why_undetermined(const Counts& counts);
 

@@ -23,7 +23,9 @@ namespace {
 constexpr std::uint64_t kClocks = 1'000'000;
 
 void demand(bool holds, double value, const std::string& what, const std::string& permitted) {
-  if (!holds) throw Error(what + " is " + to_text(value) + ": it has to be " + permitted);
+  if (!holds)
+    throw Error(what + " is " + to_text(value) + ": it has to be " + permitted, LimitProblem::out_of_range,
+                {what, to_text(value)});
 }
 
 // Far more than anybody needs; larger numbers from a damaged file or a typing error would exhaust the memory.
@@ -58,8 +60,9 @@ double driving_time_s(const TrialSetup& setup) {
 
 /// A seed must be an integer: the library would also convert 1e300, and differently on each machine.
 std::uint64_t seed_from(const nlohmann::json& json) {
+  const std::string text = json.dump().substr(0, 40);
   if (!json.is_number_integer())
-    throw Error("the seed of a study is a whole number, not " + json.dump().substr(0, 40));
+    throw Error("the seed of a study is a whole number, not " + text, SetupProblem::seed_not_whole, {text});
   return json.get<std::uint64_t>();
 }
 
@@ -89,7 +92,8 @@ calibration::MlOptions TrialSetup::ml_options() const {
 void TrialSetup::require(Model driven) const {
   if (model != driven)
     throw Error("this is a study of the " + std::string(name_of(model)) + " model, not of the " +
-                std::string(name_of(driven)) + " model: give it its own robot");
+                    std::string(name_of(driven)) + " model: give it its own robot",
+                SetupProblem::of_other_model, {std::string(name_of(model)), std::string(name_of(driven))});
 }
 
 void TrialSetup::check() const {
@@ -145,7 +149,9 @@ TrialSetup setup_from(const nlohmann::json& json) {
   TrialSetup setup;
   const auto name = json.at("model").get<std::string>();
   const std::optional<Model> model = model_named(name);
-  if (!model) throw Error("'" + name + "' is not a model of a robot: the models are kinematic and simulator");
+  if (!model)
+    throw Error("'" + name + "' is not a model of a robot: the models are kinematic and simulator",
+                SetupProblem::model_unknown, {name});
   setup.model = *model;
   setup.trials = count_in(json.at("trials").dump(), "trials");
   setup.seed = seed_from(json.at("seed"));

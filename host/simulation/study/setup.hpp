@@ -16,6 +16,16 @@
 /// What a study repeats: one robot, one programme of squares and circles, one ground truth.
 namespace astro::simulation::study {
 
+/// What is wrong with a set-up. Values: the seed's text; the model's name; of of_other_model it and that of
+/// the robot.
+enum class SetupProblem {
+  seed_not_whole,
+  model_unknown,
+  of_other_model,
+  windup_not_simulated,
+  count_rate_not_recorded
+};
+
 /// Which robot drives: kinematics and noise alone, or the firmware on the simulated board.
 enum class Model { kinematic, simulator };
 std::string_view name_of(Model model);

@@ -73,7 +73,9 @@ void require_same(const ShardFile& first, const ShardFile& other) {
   for (const auto& [key, value] : a.items())
     if (b.at(key) != value)
       throw Error("'" + first.name + "' was made with " + key + " " + value.dump() + " and '" + other.name +
-                  "' with " + b.at(key).dump() + ": merge shards of one study only");
+                      "' with " + b.at(key).dump() + ": merge shards of one study only",
+                  StudyProblem::of_two_studies,
+                  {first.name, key, value.dump(), other.name, b.at(key).dump()});
 }
 
 struct SourcedTrial {
@@ -95,11 +97,24 @@ std::vector<SourcedTrial> sorted_by_index(const std::vector<ShardFile>& parts) {
   return held;
 }
 
+[[noreturn]] void refuse_as_none(const std::string& name) {
+  throw Error("'" + name + "' is not a shard of a study", StudyProblem::not_a_shard, {name});
+}
+
 [[noreturn]] void refuse_gap(int count, int begin, int end) {
   const std::string which =
       end - begin == 1 ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(end - 1);
   throw Error("of " + std::to_string(count) + " trials " + which +
-              " are missing: run their shard, or name its file, too");
+                  " are missing: run their shard, or name its file, too",
+              StudyProblem::trials_missing,
+              {std::to_string(count), std::to_string(begin), std::to_string(end - 1)});
+}
+
+[[noreturn]] void refuse_twice(const SourcedTrial& trial, const SourcedTrial& before) {
+  throw Error("trial " + std::to_string(trial.index()) + " is in '" + before.part->name + "' and in '" +
+                  trial.part->name + "': name each shard once",
+              StudyProblem::trial_twice,
+              {std::to_string(trial.index()), before.part->name, trial.part->name});
 }
 
 }  // namespace
@@ -113,24 +128,24 @@ std::string to_text(const TrialSetup& setup, const std::vector<Trial>& trials) {
 }
 
 ShardFile read_shard_file(const std::string& text, const std::string& name) {
-  if (!json_fits_memory(text))
-    throw Error("'" + name + "' is not a shard of a study", StudyProblem::not_a_shard);
+  if (!json_fits_memory(text)) refuse_as_none(name);
   try {
     const json file = json::parse(text);
     if (file.at("format") != kFormat || file.at("methods") != json(kMethods))
       throw Error("'" + name + "' was written by another version of the study",
-                  StudyProblem::shard_of_other_version);
+                  StudyProblem::shard_of_other_version, {name});
     ShardFile part{name, setup_from(file.at("setup")), {}};
     for (const json& trial : file.at("trials")) part.trials.push_back(trial_from(trial));
     part.setup.check();
     return part;
   } catch (const json::exception&) {
-    throw Error("'" + name + "' is not a shard of a study", StudyProblem::not_a_shard);
+    refuse_as_none(name);
   }
 }
 
 std::vector<Trial> merge(const std::vector<ShardFile>& parts) {
-  if (parts.empty()) throw Error("there is nothing to merge: name the files of all shards");
+  if (parts.empty())
+    throw Error("there is nothing to merge: name the files of all shards", StudyProblem::no_shards);
   const int count = parts.front().setup.trials;
   const std::vector<SourcedTrial> held = sorted_by_index(parts);
   int next = 0;
@@ -138,11 +153,9 @@ std::vector<Trial> merge(const std::vector<ShardFile>& parts) {
     if (trial.index() < 0 || trial.index() >= count)
       throw Error("'" + trial.part->name + "' holds trial " + std::to_string(trial.index()) +
                       " of a study of " + std::to_string(count) + "; it is damaged",
-                  StudyProblem::shard_damaged);
-    if (trial.index() < next)
-      throw Error("trial " + std::to_string(trial.index()) + " is in '" +
-                  held[static_cast<std::size_t>(next) - 1].part->name + "' and in '" + trial.part->name +
-                  "': name each shard once");
+                  StudyProblem::shard_damaged,
+                  {trial.part->name, std::to_string(trial.index()), std::to_string(count)});
+    if (trial.index() < next) refuse_twice(trial, held[static_cast<std::size_t>(next) - 1]);
     if (trial.index() > next) refuse_gap(count, next, trial.index());
     ++next;
   }

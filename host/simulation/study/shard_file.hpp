@@ -9,8 +9,17 @@
 /// The trials of one shard as text, and several shards merged.
 namespace astro::simulation::study {
 
-/// What is wrong with a shard of a study.
-enum class StudyProblem { not_a_shard, shard_of_other_version, shard_damaged };
+/// What is wrong with a shard of a study, or with several of them.
+enum class StudyProblem {
+  not_a_shard,             // value: the file
+  shard_of_other_version,  // the same
+  shard_damaged,           // values: the file, the trial that it holds, and how many the study has
+  shard_empty,             // values: the number of the shard, of how many, and of how many trials
+  no_shards,
+  of_two_studies,  // values: a file, what differs and its value there, another file and the value in it
+  trial_twice,     // values: the trial and both files
+  trials_missing   // values: how many there are, and the first and the last that is missing
+};
 
 struct ShardFile {
   std::string name;  // of the file, for messages

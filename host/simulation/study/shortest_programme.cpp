@@ -24,7 +24,8 @@ constexpr double kTargetMissed = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void refuse_too_fine() {
   throw Error("a precision this fine takes more than " + std::to_string(kMostRuns) +
-              " runs: drive longer ones, ask for less, or lessen the slip");
+                  " runs: drive longer ones, ask for less, or lessen the slip",
+              ProgrammeProblem::precision_too_fine);
 }
 
 struct Target {
@@ -155,7 +156,9 @@ void require_e(double target, const std::vector<Kind>& kinds) {
   require_positive(target, "the precision wanted of e");
   Counts one_of_each{};
   for (const Kind kind : kinds) one_of_each[kind] = 1;
-  if (const auto why = why_e_is_hidden(one_of_each)) throw Error(*why);
+  const bool circles = one_of_each[kCircles] != 0;
+  if (const auto why = why_e_is_hidden(one_of_each))
+    throw Error(*why, circles ? ProgrammeProblem::no_squares_nor_spins : ProgrammeProblem::no_circles);
 }
 
 }  // namespace

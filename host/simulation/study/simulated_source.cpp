@@ -117,10 +117,12 @@ void SimulatedSource::check(const TrialSetup& setup) const {
   plan_of(setup).check();
   if (setup.windup_rad != 0)
     throw Error(
-        "the simulated robot's tyres do not wind up in spins: only the robot of the kinematic model does");
+        "the simulated robot's tyres do not wind up in spins: only the robot of the kinematic model does",
+        simulation::study::SetupProblem::windup_not_simulated);
   if (setup.count_rate_hz != kCountRate_hz)
     throw Error("the simulated robot's counts are recorded at " + std::to_string(std::lround(kCountRate_hz)) +
-                " Hz: leave the rate of the counts at that, or take the kinematic model");
+                    " Hz: leave the rate of the counts at that, or take the kinematic model",
+                simulation::study::SetupProblem::count_rate_not_recorded);
 }
 
 simulation::study::Drives SimulatedSource::of_trial(const TrialSetup& setup, int trial) const {

@@ -29,11 +29,12 @@ std::size_t choose_body(const std::vector<BodyName>& bodies, std::string_view wa
   }
   if (found.size() == 1) return found.front();
   if (wanted.empty())
-    throw UnknownBody("'" + std::string(file) + "' holds several bodies: " + listed(bodies), bodies);
+    throw UnknownBody("'" + std::string(file) + "' holds several bodies: " + listed(bodies), file, wanted,
+                      bodies);
   const std::string how = found.empty() ? "no body" : "several bodies";
   throw UnknownBody("'" + std::string(file) + "' holds " + how + " of the name '" + std::string(wanted) +
                         "', but " + listed(bodies),
-                    bodies);
+                    file, wanted, bodies);
 }
 
 }  // namespace astro::truth

@@ -14,13 +14,17 @@ struct BodyName {
   bool operator==(const BodyName&) const = default;
 };
 
+/// Which body is meant is not known. Values: the file, and the name or id that was asked for.
 enum class BodyProblem { unknown };
 
 /// The body asked for is not in the recording, or several could be meant.
 class UnknownBody : public Error {
  public:
-  UnknownBody(const std::string& sentence, std::vector<BodyName> bodies)
-      : Error(sentence, BodyProblem::unknown), bodies_(std::move(bodies)) {}
+  UnknownBody(const std::string& sentence, std::string_view file, std::string_view wanted,
+              std::vector<BodyName> bodies)
+      : Error(sentence, BodyProblem::unknown, {std::string(file), std::string(wanted)}),
+        bodies_(std::move(bodies)) {}
+  /// All that the recording holds.
   const std::vector<BodyName>& bodies() const { return bodies_; }
 
  private:

@@ -35,6 +35,16 @@ enum class RotationKind : std::uint8_t {
   heading,  // one angle about z
 };
 
+/// What looks odd in a recording. The value is the number of rows, the unit of time, or the greatest
+/// difference in milliseconds.
+enum class TrackRemark {
+  length_unit_assumed,
+  heading_unit_assumed,
+  time_unit_assumed,
+  times_repeated,
+  times_disagree
+};
+
 /// What the recording says of itself, as found; the poses are already converted.
 struct TrackFacts {
   FileKind kind = FileKind::unknown;
@@ -46,7 +56,7 @@ struct TrackFacts {
   std::string start_time;  // "2020-12-23T01:18:10.123", local, of a zone that no file names; "" if not stated
   bool start_time_sure = true;      // false: on a twelve-hour clock without morning or afternoon
   std::int64_t dropped_frames = 0;  // missing in the frame numbers
-  std::vector<Remark> remarks;      // what looks odd in the file
+  std::vector<Remark> remarks;      // what looks odd in the file: TrackRemark
 };
 
 /// Axes      as in the file: which one points up is stated by no format (host/truth/floor finds it).

@@ -8,7 +8,7 @@ std::int64_t FrameNumbers::take(std::string_view cell, const Rows& rows) {
   constexpr double kMostFrames = 1e12;
   const auto number = cell_number(cell, decimal_comma_);
   if (!number || *number != std::floor(*number) || std::abs(*number) > kMostFrames)
-    rows.refuse(1, shown_cell(cell) + " is no frame number");
+    rows.refuse(1, shown_cell(cell) + " is no frame number", TrackProblem::no_frame_number, {cut_cell(cell)});
   const auto frame = static_cast<std::int64_t>(*number);
   if (last_ && frame > *last_) dropped_ += frame - *last_ - 1;
   last_ = frame;

@@ -41,7 +41,9 @@ PoseColumns motive_columns(const MotiveHeader& header, const MotiveBody& body, c
   }
   const std::string unit = header.value("Length Units");
   const auto metres = metres_per(unit);
-  if (!unit.empty() && !metres) rows.refuse("the unit of length " + shown_cell(unit) + " is not known");
+  if (!unit.empty() && !metres)
+    rows.refuse("the unit of length " + shown_cell(unit) + " is not known", TrackProblem::length_unit_unknown,
+                {cut_cell(unit)});
   columns.metres = metres.value_or(1);
   return columns;
 }
@@ -117,10 +119,12 @@ void describe(const MotiveHeader& header, const PoseColumns& columns, TrackFacts
 void add_remarks(const MotiveHeader& header, const MotiveTimes& times, TrackFacts& facts) {
   facts.rate_hz = times.rate_hz();
   facts.dropped_frames = times.dropped();
+  const std::string most_ms = to_text(std::round(1e3 * times.disagreement_s()));
   if (times.disagreement_s() > kTimeRounding_s)
-    facts.remarks.push_back({"frame numbers and the column of times differ by up to " +
-                             to_text(std::round(1e3 * times.disagreement_s())) +
-                             " ms; the frame numbers are used"});
+    facts.remarks.push_back({"frame numbers and the column of times differ by up to " + most_ms +
+                                 " ms; the frame numbers are used",
+                             TrackRemark::times_disagree,
+                             {most_ms}});
   const std::string space = header.value("Coordinate Space");
   if (!space.empty() && space != "Global")
     facts.remarks.push_back({"the coordinate space is '" + space.substr(0, 40) + "', not Global"});

@@ -130,11 +130,13 @@ MotiveHeader read_motive_header(Rows& rows) {
   if (out.bodies.empty())
     throw Error(
         "'" + std::string(rows.file()) + "' holds no rigid body with positions" +
-        (headings.type.size() > 3
-             ? ", only columns of type '" +
-                   std::string(headings.type.back().empty() ? headings.type[2] : headings.type.back()) + "'"
-             : "") +
-        ": solve the assets of the take, and export it again with rigid bodies switched on");
+            (headings.type.size() > 3
+                 ? ", only columns of type '" +
+                       std::string(headings.type.back().empty() ? headings.type[2] : headings.type.back()) +
+                       "'"
+                 : "") +
+            ": solve the assets of the take, and export it again with rigid bodies switched on",
+        TrackProblem::no_rigid_body, {std::string(rows.file())});
   return out;
 }
 

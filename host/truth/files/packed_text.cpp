@@ -70,7 +70,8 @@ class Unpacking {
       } else if (state != Z_OK) {
         const bool cut = taken_ == file_.size();
         throw Error("'" + name_ + "' is packed with gzip and " + (cut ? "cut off" : "damaged") + " at byte " +
-                    std::to_string(taken_) + "; use the original");
+                        std::to_string(taken_) + "; use the original",
+                    cut ? PackedProblem::cut_off : PackedProblem::damaged, {name_, std::to_string(taken_)});
       }
     }
   }
@@ -95,7 +96,8 @@ class Unpacking {
     taken_ += packed.size() - inflater_->avail_in;
     if (!text_.add(ByteView(out).first(sizeof out - inflater_->avail_out)))
       throw Error("'" + name_ + "' unpacks to more than can be held: with its poses " +
-                  std::to_string(most_ >> 20U) + " MiB: unpack it with gunzip first");
+                      std::to_string(most_ >> 20U) + " MiB: unpack it with gunzip first",
+                  PackedProblem::too_large, {name_, std::to_string(most_ >> 20U)});
     return state;
   }
 

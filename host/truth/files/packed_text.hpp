@@ -7,6 +7,10 @@
 /// Text that was packed with gzip, as archives of recordings keep it.
 namespace astro::truth {
 
+/// Why a file cannot be unpacked. Values: its name, and the byte up to which it could be, or how many MiB can
+/// be held.
+enum class PackedProblem { cut_off, damaged, too_large };
+
 bool is_gzip(ByteView bytes);
 
 /// The text. With 72 bytes for the pose of each line, it may take four times the memory of the file, and 56 MiB more.

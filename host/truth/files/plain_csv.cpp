@@ -103,10 +103,13 @@ void take_unit(const Rows& rows, Slot slot, int column, const std::string& unit,
   const bool fits = slot == Slot::time      ? ns_power(unit).has_value()
                     : slot == Slot::heading ? radians_per(unit).has_value()
                                             : metres_per(unit).has_value();
-  if (!fits) rows.refuse(column + 1, "the unit " + shown_cell(unit) + " does not fit the column");
+  if (!fits)
+    rows.refuse(column + 1, "the unit " + shown_cell(unit) + " does not fit the column",
+                TrackProblem::unit_of_other_quantity, {cut_cell(unit)});
   if (!known.empty() && known != unit)
     rows.refuse(column + 1,
-                "the positions have different units, " + shown_cell(known) + " and " + shown_cell(unit));
+                "the positions have different units, " + shown_cell(known) + " and " + shown_cell(unit),
+                TrackProblem::units_differ, {cut_cell(known), cut_cell(unit)});
   known = unit;
 }
 
@@ -194,9 +197,11 @@ void describe_plain(const PlainHeader& header, TrackFacts& facts) {
                    : header.columns.rotation == RotationKind::heading  ? "heading about z"
                                                                        : "none";
   if (header.length_unit.empty())
-    facts.remarks.push_back({"the unit of length is not stated: metres are assumed"});
+    facts.remarks.push_back(
+        {"the unit of length is not stated: metres are assumed", TrackRemark::length_unit_assumed});
   if (header.columns.rotation == RotationKind::heading && header.angle_unit.empty())
-    facts.remarks.push_back({"the unit of the heading is not stated: radians are assumed"});
+    facts.remarks.push_back(
+        {"the unit of the heading is not stated: radians are assumed", TrackRemark::heading_unit_assumed});
 }
 
 }  // namespace
@@ -231,17 +236,19 @@ BodyTrack read_plain(std::string_view text, std::string_view file, std::string_v
     if (header.time_unit.empty()) {
       header.time_unit = assumed_time_unit(row.time(), comma);
       track.facts.remarks.push_back(
-          {"the unit of the time is not stated: " + header.time_unit + " is assumed"});
+          {"the unit of the time is not stated: " + header.time_unit + " is assumed",
+           TrackRemark::time_unit_assumed,
+           {header.time_unit}});
     }
     const auto time_ns = exact_ns(row.time(), *ns_power(header.time_unit), comma);
-    if (!time_ns) rows.refuse(header.columns[Slot::time] + 1, shown_cell(row.time()) + " is no time");
+    if (!time_ns)
+      rows.refuse(header.columns[Slot::time] + 1, shown_cell(row.time()) + " is no time",
+                  TrackProblem::no_time, {cut_cell(row.time())});
     TrackedPose sample = row.pose();
     sample.time_ns = *time_ns;
     builder.add(sample, rows);
   }
-  if (builder.repeated_times() > 0)
-    track.facts.remarks.push_back({"rows left out because they have the time of the row before: " +
-                                   std::to_string(builder.repeated_times())});
+  if (builder.repeated_times() > 0) track.facts.remarks.push_back(repeated_times(builder));
   return track;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/text/csv_table.hpp"
 #include "host/truth/files/rotations.hpp"
 
 namespace astro::truth {
@@ -53,7 +52,8 @@ void PoseRow::read(const Rows& rows) {
       number_[slot] = *value;
       present_ |= 1U << slot;
     } else if (cell != "nan" && cell != "NaN" && cell != "-nan") {
-      rows.refuse(static_cast<int>(i) + 1, shown_cell(cell) + " is not a number");
+      rows.refuse(static_cast<int>(i) + 1, shown_cell(cell) + " is not a number", TrackProblem::not_a_number,
+                  {cut_cell(cell)});
     }
   }
 }
@@ -107,13 +107,19 @@ void TrackBuilder::add(const TrackedPose& sample, const Rows& rows) {
       return;
     }
     if (sample.time_ns < before)
-      astro::refuse(rows.file(), rows.line(),
-                    "the time does not increase; sort the rows, or leave the column out");
+      rows.refuse("the time does not increase; sort the rows, or leave the column out",
+                  TrackProblem::time_not_increasing);
   }
   if (track_.samples.size() >= most_)
-    astro::refuse(rows.file(), rows.line(),
-                  "the file has more rows than can be held: split it into one file for each run");
+    rows.refuse("the file has more rows than can be held: split it into one file for each run");
   track_.samples.push_back(sample);
+}
+
+Remark repeated_times(const TrackBuilder& builder) {
+  const std::string rows = std::to_string(builder.repeated_times());
+  return {"rows left out because they have the time of the row before: " + rows,
+          TrackRemark::times_repeated,
+          {rows}};
 }
 
 }  // namespace astro::truth

@@ -73,4 +73,7 @@ class TrackBuilder {
   std::int64_t repeated_times_ = 0;
 };
 
+/// That rows were left out. Precondition: builder.repeated_times() > 0.
+Remark repeated_times(const TrackBuilder& builder);
+
 }  // namespace astro::truth

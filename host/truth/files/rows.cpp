@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "host/base/error.hpp"
-#include "host/base/text/csv_table.hpp"
 #include "host/base/text/trimmed.hpp"
 
 namespace astro::truth {
 namespace {
 
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kBlanks = " \t";
-constexpr std::size_t kMostHeaderCells = 100'000;
+constexpr std::size_t kMostHeaderCells = 100'000, kMostShown = 40;
 
 std::string_view without_quotes(std::string_view cell) {
   while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
@@ -90,11 +89,17 @@ bool Rows::next_filled() {
 
 bool Rows::is_blank() const { return line_.find_first_not_of(" \t,;\"") == std::string_view::npos; }
 
-void Rows::refuse(const std::string& what) const { astro::refuse(file_, number_, what); }
+void Rows::refuse(const std::string& what, Kind kind, const std::vector<std::string>& more) const {
+  std::vector<std::string> values{std::string(file_), std::to_string(number_)};
+  values.insert(values.end(), more.begin(), more.end());
+  throw Error(values[0] + ", line " + values[1] + ": " + what, kind, values);
+}
 
-void Rows::refuse(int column, const std::string& what) const {
-  throw Error(std::string(file_) + ", line " + std::to_string(number_) + ", column " +
-              std::to_string(column) + ": " + what);
+void Rows::refuse(int column, const std::string& what, Kind kind,
+                  const std::vector<std::string>& more) const {
+  std::vector<std::string> values{std::string(file_), std::to_string(number_), std::to_string(column)};
+  values.insert(values.end(), more.begin(), more.end());
+  throw Error(values[0] + ", line " + values[1] + ", column " + values[2] + ": " + what, kind, values);
 }
 
 Dialect dialect_of(std::string_view line) {
@@ -157,8 +162,10 @@ std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
   return std::nullopt;
 }
 
+std::string cut_cell(std::string_view cell) { return std::string(cell.substr(0, kMostShown)); }
+
 std::string shown_cell(std::string_view cell) {
-  return "'" + std::string(cell.substr(0, 40)) + (cell.size() > 40 ? "...'" : "'");
+  return "'" + cut_cell(cell) + (cell.size() > kMostShown ? "...'" : "'");
 }
 
 std::optional<std::int64_t> exact_ns(std::string_view cell, int power, bool decimal_comma) {

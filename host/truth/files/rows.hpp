@@ -6,8 +6,25 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/error.hpp"
+
 /// Rows and cells of large tables, without a copy of any of them.
 namespace astro::truth {
+
+/// What is wrong with a recording. Values: the file; then of all but the first two the line and, if it is
+/// known, the column, and what stands there, of units_differ behind the unit of the columns before.
+enum class TrackProblem {
+  no_header,
+  no_rigid_body,
+  length_unit_unknown,
+  angle_unit_unknown,
+  unit_of_other_quantity,
+  units_differ,
+  not_a_number,
+  no_frame_number,
+  no_time,
+  time_not_increasing
+};
 
 /// Walks over the lines of a text: LF, CRLF or CR, with or without a byte order mark.
 class Rows {
@@ -24,8 +41,11 @@ class Rows {
   /// Whether the line holds nothing but blanks and separators.
   bool is_blank() const;
 
-  [[noreturn]] void refuse(const std::string& what) const;
-  [[noreturn]] void refuse(int column, const std::string& what) const;  // column from 1
+  /// Values of the error: the file, the line, the column (from 1), and `more`.
+  [[noreturn]] void refuse(const std::string& what, Kind kind = {},
+                           const std::vector<std::string>& more = {}) const;
+  [[noreturn]] void refuse(int column, const std::string& what, Kind kind = {},
+                           const std::vector<std::string>& more = {}) const;
 
  private:
   std::string_view rest_, file_, line_;
@@ -52,6 +72,8 @@ std::vector<std::string_view> split_header(const Rows& rows, char separator);
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma);
 
 /// The cell for a message: 40 characters at most.
+std::string cut_cell(std::string_view cell);
+/// The same in quotes.
 std::string shown_cell(std::string_view cell);
 
 /// A time with all its digits: a decimal number, perhaps with an exponent, times 10^power in nanoseconds

@@ -31,9 +31,11 @@ bool is_vicon_start(Rows rows) {
                 "newer version of Motive and export it again");
   Rows rows(text, file);
   if (rows.next_filled() && cell_number(first_cell(rows.text()), false))
-    throw Error(name +
-                " begins with numbers: without a header its columns have no meaning: export the recording "
-                "again with its header");
+    throw Error(
+        name +
+            " begins with numbers: without a header its columns have no meaning: export the recording "
+            "again with its header",
+        TrackProblem::no_header, {std::string(file)});
   throw Error(
       name +
       " is none of the recordings that can be read: Motive CSV, Vicon CSV, TUM, EuRoC, or CSV with the "

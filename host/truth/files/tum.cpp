@@ -67,13 +67,12 @@ BodyTrack read_tum(std::string_view text, std::string_view file) {
     row.read(rows);
     TrackedPose sample = row.pose();
     const auto time_ns = exact_ns(row.time(), power, false);
-    if (!time_ns) rows.refuse(1, shown_cell(row.time()) + " is no time");
+    if (!time_ns)
+      rows.refuse(1, shown_cell(row.time()) + " is no time", TrackProblem::no_time, {cut_cell(row.time())});
     sample.time_ns = *time_ns;
     builder.add(sample, rows);
   } while (rows.next_filled());
-  if (builder.repeated_times() > 0)
-    facts.remarks.push_back({"rows left out because they have the time of the row before: " +
-                             std::to_string(builder.repeated_times())});
+  if (builder.repeated_times() > 0) facts.remarks.push_back(repeated_times(builder));
   return track;
 }
 

@@ -44,7 +44,9 @@ void take_units(const Rows& rows, const std::vector<std::string_view>& units, Vi
   PoseColumns& columns = body.columns;
   body.length_unit = unit_at(Slot::x);
   const auto metres = metres_per(body.length_unit);
-  if (!metres) rows.refuse(columns[Slot::x] + 1, shown_cell(body.length_unit) + " is no unit of length");
+  if (!metres)
+    rows.refuse(columns[Slot::x] + 1, shown_cell(body.length_unit) + " is no unit of length",
+                TrackProblem::length_unit_unknown, {cut_cell(body.length_unit)});
   columns.metres = *metres;
   if (columns[Slot::rx] < 0 || columns[Slot::ry] < 0 || columns[Slot::rz] < 0) {
     for (const Slot slot : {Slot::rx, Slot::ry, Slot::rz, Slot::rw}) columns[slot] = -1;
@@ -54,7 +56,9 @@ void take_units(const Rows& rows, const std::vector<std::string_view>& units, Vi
     columns.rotation = RotationKind::rotation_vector;
     body.angle_unit = unit_at(Slot::rz);
     const auto radians = radians_per(body.angle_unit);
-    if (!radians) rows.refuse(columns[Slot::rz] + 1, shown_cell(body.angle_unit) + " is no unit of angle");
+    if (!radians)
+      rows.refuse(columns[Slot::rz] + 1, shown_cell(body.angle_unit) + " is no unit of angle",
+                  TrackProblem::angle_unit_unknown, {cut_cell(body.angle_unit)});
     columns.radians = *radians;
   }
 }

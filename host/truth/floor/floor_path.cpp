@@ -23,6 +23,17 @@ std::string text_of(const Direction3& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", shown(v[0]), shown(v[1]), shown(v[2]));
 }
 
+[[noreturn]] void refuse_frames(const BodyTrack& track, const UpAxisEvidence& evidence) {
+  const std::string normal = text_of(*evidence.by_positions), axis = text_of(*evidence.by_rotations);
+  const std::string apart = fmt::format("{:.0f}", degrees(evidence.disagreement_rad));
+  throw Error(
+      fmt::format("'{}': positions and orientations are in different frames: the positions lie in a plane "
+                  "with the normal {}, the body turns about {}, {} degrees apart: export positions and "
+                  "orientations with the same axes, and do not change them afterwards",
+                  track.name, normal, axis, apart),
+      FloorProblem::frames_differ, {track.name, normal, axis, apart});
+}
+
 Direction3 known_up(const BodyTrack& track, const FloorChoices& choices, FloorFindings& findings) {
   findings.evidence = find_up_axis(track);
   const UpAxisEvidence& evidence = findings.evidence;
@@ -34,18 +45,15 @@ Direction3 known_up(const BodyTrack& track, const FloorChoices& choices, FloorFi
     return {up[0] / length, up[1] / length, up[2] / length};
   }
   if (evidence.by_positions && evidence.by_rotations && evidence.disagreement_rad > kLargestDisagreement_rad)
-    throw Error(
-        fmt::format("'{}': positions and orientations are in different frames: the positions lie in a plane "
-                    "with the normal {}, the body turns about {}, {:.0f} degrees apart: export positions and "
-                    "orientations with the same axes, and do not change them afterwards",
-                    track.name, text_of(*evidence.by_positions), text_of(*evidence.by_rotations),
-                    degrees(evidence.disagreement_rad)));
+    refuse_frames(track, evidence);
   if (evidence.by_positions) return *evidence.by_positions;
   if (evidence.by_rotations) return *evidence.by_rotations;
   if (track.facts.rotation_kind == RotationKind::heading) return {0, 0, 1};
-  throw Error("'" + track.name +
-              "' does not show which axis points up: the body neither turned nor drove a curve: drive both "
-              "ways round, and lines as well as turns");
+  throw Error(
+      "'" + track.name +
+          "' does not show which axis points up: the body neither turned nor drove a curve: drive both "
+          "ways round, and lines as well as turns",
+      FloorProblem::no_up_axis, {track.name});
 }
 
 /// Positions in the plane, headings about its normal.
@@ -139,10 +147,13 @@ void settle_units(std::vector<FloorPoint>& points, const BodyTrack& track,
   scale(points, findings.length_factor, findings.length_factor);
   findings.path_m = path_length(points);
   if (findings.unit_ratio != 1 && !choices.length_factor)
-    findings.remarks.push_back({fmt::format(
-        "the path is {:.4g} times as long as that of the wheels, so one of the two "
-        "has another unit of length than it seems{}: check the units",
-        findings.length_ratio, stated ? "" : "; the file states none, and its positions were converted")});
+    findings.remarks.push_back(
+        {fmt::format("the path is {:.4g} times as long as that of the wheels, so one of the two "
+                     "has another unit of length than it seems{}: check the units",
+                     findings.length_ratio,
+                     stated ? "" : "; the file states none, and its positions were converted"),
+         FloorRemark::units_differ,
+         {fmt::format("{:.4g}", findings.length_ratio)}});
 }
 
 /// Of the heading's turning with the wheels', or of the path's where there are no headings.

@@ -15,6 +15,13 @@
 /// motion, reported, and can be overridden.
 namespace astro::truth {
 
+/// Why a track cannot be placed on the floor. The first value is its name; of frames_differ the normal of the
+/// positions, the axis of the rotations and the degrees between them follow.
+enum class FloorProblem { frames_differ, no_up_axis };
+
+/// What looks odd in it. The value is how many times its path is as long as that of the wheels.
+enum class FloorRemark { units_differ };
+
 /// What a person knows better. Without a value it is inferred.
 struct FloorChoices {
   std::optional<Direction3> up;         // in the file's axes; need not have length 1

@@ -72,7 +72,7 @@ void LiveSource::listen(Need need) {
   while (std::ranges::none_of(held_.all(), enough) ||
          now_().count() - recent_.front().arrival_us < kListening.count()) {
     if (now_() - begin >= kPoseTimeout && std::ranges::none_of(held_.all(), enough))
-      throw Error(fmt::format("no ground truth comes from {}: {}", url_.place(), why_missing()));
+      throw Error(why_missing().in(fmt::format("no ground truth comes from {}: ", url_.place())));
     link_->wait(kStep);
     work(now_());
   }
@@ -84,8 +84,13 @@ void LiveSource::listen(Need need) {
 void LiveSource::require_one_body() const {
   if (!url_.body.empty() || link_->bodies().size() < 2) return;
   std::string list;
-  for (const std::string& body : link_->bodies()) list += (list.empty() ? "'" : ", '") + body + "'";
-  throw Error(fmt::format("{} tracks several bodies, and none was named: {}", url_.place(), list));
+  std::vector<std::string> values{url_.place()};
+  for (const std::string& body : link_->bodies()) {
+    list += (list.empty() ? "'" : ", '") + body + "'";
+    values.push_back(body);
+  }
+  throw Error(fmt::format("{} tracks several bodies, and none was named: {}", url_.place(), list),
+              LiveProblem::several_bodies, values);
 }
 
 /// Returns false if nothing has come.
@@ -145,7 +150,8 @@ void LiveSource::require_possible_rate() {
   const std::int64_t passed_s = std::chrono::duration_cast<seconds>(now_() - counting_from_).count();
   if (++passed_on_ > kMostAtOnce + kMostPerSecond * passed_s)
     throw Error(fmt::format("more than {} poses per second come from {}, and no tracker measures so fast",
-                            kMostPerSecond, url_.place()));
+                            kMostPerSecond, url_.place()),
+                LiveProblem::too_many_poses, {url_.place(), std::to_string(kMostPerSecond)});
 }
 
 /// Datagrams may overtake each other; the later ones of them are left out.
@@ -164,17 +170,27 @@ std::vector<recording::TruthSample> LiveSource::poll() {
   }
   settle(now);
   if (const auto objection = up_axis_.objection()) throw Error(*objection);
-  if (now - heard_at_ >= kGone)
-    throw Error(fmt::format("no ground truth has come from {} for {} s: {}", url_.place(),
-                            std::chrono::duration_cast<seconds>(kGone).count(), why_missing()));
+  if (now - heard_at_ >= kGone) refuse_silence();
   return std::exchange(samples_, {});
 }
 
-std::string LiveSource::why_missing() const {
+void LiveSource::refuse_silence() const {
+  const std::string silence_s = std::to_string(std::chrono::duration_cast<seconds>(kGone).count());
+  Remark why =
+      why_missing().in(fmt::format("no ground truth has come from {} for {} s: ", url_.place(), silence_s));
+  why.values.push_back(silence_s);
+  throw Error(why);
+}
+
+Remark LiveSource::why_missing() const {
+  const std::string& body = link_->body();
   if (!held_.all().empty())
-    return fmt::format("'{}' is not seen, or has the same pose again and again", link_->body());
+    return {"'" + body + "' is not seen, or has the same pose again and again",
+            LiveProblem::body_unseen,
+            {url_.place(), body}};
   const std::string why = link_->why_silent();
-  return why.empty() ? fmt::format("no more poses of '{}' are sent", link_->body()) : why;
+  if (!why.empty()) return {why, LiveProblem::tracker_silent, {url_.place(), why}};
+  return {"no more poses of '" + body + "' are sent", LiveProblem::poses_ended, {url_.place(), body}};
 }
 
 std::string LiveSource::description() const {

@@ -17,6 +17,15 @@
 
 namespace astro::truth {
 
+/// Why no ground truth comes, or cannot be taken. The first value is the tracker's place.
+enum class LiveProblem {
+  tracker_silent,  // then what its link says, and of a silence within a run the seconds
+  poses_ended,     // then the body, and of a silence within a run the seconds
+  body_unseen,     // the same
+  several_bodies,  // then their names
+  too_many_poses   // then how many a second can be
+};
+
 /// The link for the URL's scheme. Throws astro::Error if the host's name is unknown, or if a variable of ROS 2 in the
 /// environment has a value that cannot be.
 std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url);
@@ -69,7 +78,9 @@ class LiveSource : public Source {
   void pass_on_held();
   void begin_counting();
   void require_possible_rate();
-  std::string why_missing() const;
+  [[noreturn]] void refuse_silence() const;
+  /// The clause that ends an error, with the kind and the values of the error.
+  Remark why_missing() const;
 
   TrackerUrl url_;
   std::unique_ptr<TrackerLink> link_;

@@ -106,8 +106,10 @@ bool RosLink::is_from_publisher(const Guid& writer, microseconds now) {
   if (publisher_ && publisher_ != writer && now - heard_at_ < kTakeOver) {
     if (std::exchange(heard_since_rival_, false)) ++rivals_;
     if (rivals_ < kMostRivals) return false;
+    const std::string one = node_of(*publisher_), other = node_of(writer);
     throw Error(fmt::format("the poses of '{}' on {} are of two publishers at once, {} and {}", body(),
-                            topic_, node_of(*publisher_), node_of(writer)));
+                            topic_, one, other),
+                TopicProblem::two_publishers, {body(), topic_, one, other});
   }
   if (publisher_ != writer) {
     publisher_ = writer;

@@ -16,6 +16,9 @@
 
 namespace astro::truth {
 
+/// Two publish the same poses. Values: the body, the topic, and both nodes.
+enum class TopicProblem { two_publishers };
+
 /// A topic of ROS 2 with the robot's poses, over DDS. Its type is that under which somebody publishes it: PoseStamped,
 /// PoseWithCovarianceStamped and TransformStamped of geometry_msgs, nav_msgs/Odometry, or the transforms of tf2_msgs/TFMessage,
 /// with the fixed ones of the same topic with "_static" behind its name.

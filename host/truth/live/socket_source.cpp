@@ -35,7 +35,7 @@ int connect_to(const std::filesystem::path& path) {
     const Error why =
         system_error("no virtual cameras at '" + text + "'", errno, {}, SocketProblem::not_served);
     if (fd >= 0) close(fd);
-    throw Error(why);
+    throw Error(why.what(), why.kind(), {text});
   }
   return fd;
 }
@@ -60,8 +60,8 @@ std::vector<recording::TruthSample> SocketSource::poll() {
   while (pending_.size() < kMostPending && (count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
     pending_.append(bytes.data(), static_cast<std::size_t>(count));
   if (count == 0)
-    throw Error("the simulator's cameras at '" + path_.string() +
-                "' have disconnected: is it still running?");
+    throw Error("the simulator's cameras at '" + path_.string() + "' have disconnected: is it still running?",
+                SocketProblem::disconnected, {path_.string()});
 
   std::vector<recording::TruthSample> samples;
   std::size_t start = 0;
@@ -72,7 +72,8 @@ std::vector<recording::TruthSample> SocketSource::poll() {
     } else if (line == kGreeting) {
       greeted_ = true;
     } else {
-      throw Error("what answers at '" + path_.string() + "' is not this version's simulator");
+      throw Error("what answers at '" + path_.string() + "' is not this version's simulator",
+                  SocketProblem::of_other_version, {path_.string()});
     }
   }
   pending_.erase(0, start);
@@ -81,7 +82,8 @@ std::vector<recording::TruthSample> SocketSource::poll() {
 }
 
 void SocketSource::fail_line() const {
-  throw Error("the simulator's cameras at '" + path_.string() + "' sent a line that is no pose");
+  throw Error("the simulator's cameras at '" + path_.string() + "' sent a line that is no pose",
+              SocketProblem::no_pose, {path_.string()});
 }
 
 recording::TruthSample SocketSource::parse(std::string_view line) const {

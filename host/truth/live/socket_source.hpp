@@ -7,7 +7,8 @@
 
 namespace astro::truth {
 
-enum class SocketProblem { not_served };
+/// What is wrong with the cameras. The value is the path of their socket.
+enum class SocketProblem { not_served, disconnected, of_other_version, no_pose };
 
 /// The virtual cameras of a simulator in another process (host/simulation/server/truth_server.hpp has the
 /// format).

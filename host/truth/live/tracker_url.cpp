@@ -1,7 +1,9 @@
 #include "host/truth/live/tracker_url.hpp"
 
 #include <charconv>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
@@ -34,7 +36,7 @@ class Parser {
       url.body = decoded(take_until(left_, "?"));
     }
     if (left_.starts_with('?')) take_options(url);
-    if (!left_.empty()) fail("'" + std::string(left_) + "' is left over");
+    if (!left_.empty()) fail("'" + std::string(left_) + "' is left over", UrlProblem::left_over, left_);
     return url;
   }
 
@@ -44,10 +46,12 @@ class Parser {
     url.scheme = take_until(left_, ":");
     left_.remove_prefix(1);
     if (left_.starts_with("//"))
-      fail("a topic of ROS 2 is on no host, so it has one slash in front, as ros2:/mocap/robot/pose");
+      fail("a topic of ROS 2 is on no host, so it has one slash in front, as ros2:/mocap/robot/pose",
+           UrlProblem::topic_on_host);
     url.topic = take_until(left_, "?");
     if (!ros2::is_full_name(url.topic))
-      fail("'" + url.topic + "' is not the full name of a topic, as /mocap/robot/pose");
+      fail("'" + url.topic + "' is not the full name of a topic, as /mocap/robot/pose",
+           UrlProblem::topic_malformed, url.topic);
     std::set<std::string_view> given;
     while (!left_.empty()) {
       left_.remove_prefix(1);
@@ -55,9 +59,11 @@ class Parser {
       const std::string_view name = option.substr(0, option.find('='));
       if (name.size() == option.size() || !take_ros_option(url, name, option.substr(name.size() + 1)))
         fail("'" + std::string(option) +
-             "' is none of child=FRAME, parent=FRAME, up=y, up=z, domain=0 to 232, range=localhost and "
-             "range=subnet");
-      if (!given.insert(name).second) fail("it has " + std::string(name) + "= twice");
+                 "' is none of child=FRAME, parent=FRAME, up=y, up=z, domain=0 to 232, range=localhost and "
+                 "range=subnet",
+             UrlProblem::option_unknown, option);
+      if (!given.insert(name).second)
+        fail("it has " + std::string(name) + "= twice", UrlProblem::option_twice, name);
     }
     return url;
   }
@@ -82,26 +88,29 @@ class Parser {
     return url.where.range && *url.where.range != dds::Range::off;
   }
 
-  [[noreturn]] void fail(const std::string& why) const {
-    throw Error("'" + std::string(whole_) + "' is not the address of a tracker: " + why);
+  [[noreturn]] void fail(const std::string& why, UrlProblem problem,
+                         std::optional<std::string_view> part = {}) const {
+    std::vector<std::string> values{std::string(whole_)};
+    if (part) values.emplace_back(*part);
+    throw Error("'" + values[0] + "' is not the address of a tracker: " + why, problem, values);
   }
 
   void take_place(TrackerUrl& url) {
     if (left_.starts_with('[')) {
       left_.remove_prefix(1);
       url.host = take_until(left_, "]");
-      if (left_.empty()) fail("the bracket of its host is not closed");
+      if (left_.empty()) fail("the bracket of its host is not closed", UrlProblem::bracket_open);
       left_.remove_prefix(1);
     } else {
       url.host = take_until(left_, ":/?");
     }
-    if (url.host.empty()) fail("it has no host");
+    if (url.host.empty()) fail("it has no host", UrlProblem::no_host);
     if (!left_.starts_with(':')) return;
     left_.remove_prefix(1);
     const std::string_view port = take_until(left_, "/?");
     const auto number = unsigned_in(port);
     if (!number || *number < 1 || *number > 65'535)
-      fail("'" + std::string(port) + "' is not a port from 1 to 65535");
+      fail("'" + std::string(port) + "' is not a port from 1 to 65535", UrlProblem::port_impossible, port);
     url.port = static_cast<std::uint16_t>(*number);
   }
 
@@ -109,7 +118,8 @@ class Parser {
     left_.remove_prefix(1);
     const std::string_view option = take_until(left_, "&");
     const auto up = option.starts_with("up=") ? up_axis_named(option.substr(3)) : std::nullopt;
-    if (!up) fail("'" + std::string(option) + "' is neither up=y nor up=z");
+    if (!up)
+      fail("'" + std::string(option) + "' is neither up=y nor up=z", UrlProblem::up_axis_unknown, option);
     url.up = *up;
   }
 
@@ -123,7 +133,7 @@ class Parser {
       unsigned char code = 0;
       const char* first = text.data() + i + 1;
       if (i + 2 >= text.size() || std::from_chars(first, first + 2, code, 16).ptr != first + 2)
-        fail("'%' is not followed by two hexadecimal digits");
+        fail("'%' is not followed by two hexadecimal digits", UrlProblem::escape_malformed);
       plain += static_cast<char>(code);
       i += 2;
     }
@@ -154,7 +164,8 @@ bool is_tracker_url(std::string_view text) {
 TrackerUrl tracker_url_in(std::string_view text) {
   if (!is_tracker_url(text))
     throw Error("'" + std::string(text) +
-                "' is not the address of a tracker: it begins with none of vrpn://, natnet:// and ros2:/");
+                    "' is not the address of a tracker: it begins with none of vrpn://, natnet:// and ros2:/",
+                UrlProblem::scheme_unknown, {std::string(text)});
   return Parser(text).parse();
 }
 

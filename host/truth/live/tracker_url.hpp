@@ -9,6 +9,22 @@
 
 namespace astro::truth {
 
+/// What is wrong with the address of a tracker. Values: the address, and the part that is wrong if there is
+/// one.
+enum class UrlProblem {
+  scheme_unknown,
+  left_over,
+  topic_on_host,
+  topic_malformed,
+  option_unknown,
+  option_twice,
+  bracket_open,
+  no_host,
+  port_impossible,
+  up_axis_unknown,
+  escape_malformed
+};
+
 /// Where a tracker sends, and which of its bodies is the robot:
 ///
 ///   vrpn://HOST[:PORT][/BODY][?up=y]

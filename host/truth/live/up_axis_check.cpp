@@ -29,11 +29,14 @@ void UpAxisCheck::forget() { *this = UpAxisCheck(assumed_); }
 std::optional<Remark> UpAxisCheck::objection() const {
   if (contradictions_ < kEnough) return std::nullopt;
   const bool y_assumed = assumed_ == UpAxis::y;
-  return Remark{fmt::format(
-      "the body {} by {:.2f} m along the tracker's {} axis, which is taken for up, and keeps its place "
-      "along {}: if that one points up, put up={} behind the ? of the tracker\'s address",
-      risen_m_ > 0 ? "rises" : "falls", std::abs(risen_m_), y_assumed ? "y" : "z", y_assumed ? "z" : "y",
-      y_assumed ? "z" : "y")};
+  const std::string up = y_assumed ? "y" : "z", other = y_assumed ? "z" : "y";
+  return Remark{
+      fmt::format("the body {} by {:.2f} m along the tracker's {} axis, which is taken for up, and keeps "
+                  "its place along {}: if that one points up, put up={} behind the ? of the tracker's "
+                  "address",
+                  risen_m_ > 0 ? "rises" : "falls", std::abs(risen_m_), up, other, other),
+      UpAxisProblem::contradicted,
+      {up, other, fmt::format("{:.2f}", risen_m_)}};
 }
 
 }  // namespace astro::truth

@@ -7,6 +7,10 @@
 
 namespace astro::truth {
 
+/// The drive contradicts the axis that is taken for up. Values: it, the other one, and by how many metres the
+/// body rises.
+enum class UpAxisProblem { contradicted };
+
 /// Whether a body that drives on a floor shows that not the assumed axis of the tracker points up but the other one. A drive
 /// with the wrong axis has no use, and every drive before somebody notices is lost.
 class UpAxisCheck {

@@ -80,9 +80,10 @@ std::optional<std::string> FrameTree::moving(const std::vector<std::string>& cha
     if (!at.fixed) topmost = chain[i];
     if (!at.moved) continue;
     if (moved)
-      throw Error(fmt::format(
-          "from '{}' to '{}' two transforms move, those of '{}' and '{}', and a tracker measures only one",
-          chain.back(), chain.front(), *moved, chain[i]));
+      throw Error(fmt::format("from '{}' to '{}' two transforms move, those of '{}' and '{}', and a tracker "
+                              "measures only one",
+                              chain.back(), chain.front(), *moved, chain[i]),
+                  FrameProblem::two_move, {chain.back(), chain.front(), *moved, chain[i]});
     moved = chain[i];
   }
   return moved ? moved : topmost;

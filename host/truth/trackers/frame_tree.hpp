@@ -11,6 +11,9 @@
 
 namespace astro::truth {
 
+/// Two transforms of a chain move. Values: its last and its first frame, and those whose transforms move.
+enum class FrameProblem { two_move };
+
 /// `inner`, a pose in the frame that `outer` places. A rotation need not be exactly of length 1; one of length 0 makes the
 /// result NaN, which no body can have.
 Pose3 composed(const Pose3& outer, const Pose3& inner);

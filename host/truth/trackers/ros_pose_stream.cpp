@@ -88,11 +88,14 @@ void RosPoseStream::take_transform(const ros2::StampedPose& transform) {
 
 /// `frames`: from the body's own up to the one that its pose is in.
 void RosPoseStream::add(const std::vector<std::string>& frames, std::int64_t time_ns, const Pose3& pose) {
-  if (const auto odometry = std::ranges::find_if(frames, says_odometry); odometry != frames.end())
+  if (const auto odometry = std::ranges::find_if(frames, says_odometry); odometry != frames.end()) {
+    const bool last = odometry + 1 == frames.end();
     throw Error(
         fmt::format("the poses of {} are {} the frame '{}': they are what the robot computes from its "
                     "own wheels, and no ground truth",
-                    wanted_.topic, odometry + 1 == frames.end() ? "in" : "by way of", *odometry));
+                    wanted_.topic, last ? "in" : "by way of", *odometry),
+        last ? PoseProblem::in_odometry_frame : PoseProblem::by_odometry_frame, {wanted_.topic, *odometry});
+  }
   frame_ = frames.back();
   poses_.push_back({time_ns, pose});
 }

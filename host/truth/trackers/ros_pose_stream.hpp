@@ -12,6 +12,10 @@
 
 namespace astro::truth {
 
+/// The poses are no ground truth: they are in the frame of odometry, or by way of it. Values: the topic and
+/// the frame.
+enum class PoseProblem { in_odometry_frame, by_odometry_frame };
+
 /// Which poses of a topic are the robot's. Frames that are "" are those of the messages, if there is only one body.
 struct RosBody {
   std::string topic;   // "/vrpn_mocap/robot/pose", "/tf"

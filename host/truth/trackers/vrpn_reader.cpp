@@ -19,7 +19,7 @@ bool StreamReader::take_cookie() {
   constexpr std::size_t kSame = 14;  // "vrpn: ver. 07."
   for (std::size_t i = 0; i < std::min(came, kSame); ++i)
     if (pending_[i] != expected[i])
-      throw Error("the first bytes are not those of a VRPN server of version 07");
+      throw Error("the first bytes are not those of a VRPN server of version 07", VrpnProblem::other_program);
   if (came < kCookieBytes) return false;
   taken_ = kCookieBytes;
   return greeted_ = true;
@@ -32,7 +32,8 @@ std::optional<Message> StreamReader::next() {
   if (whole_header) {
     const std::uint32_t length = length_in(left);
     if (const std::string fault = fault_of_length(length); !fault.empty())
-      throw Error("byte " + std::to_string(before_ + taken_) + " begins " + fault);
+      throw Error("byte " + std::to_string(before_ + taken_) + " begins " + fault,
+                  VrpnProblem::impossible_length, {std::to_string(length), std::to_string(before_ + taken_)});
     if (left.size() >= padded(length)) {
       taken_ += padded(length);
       return message_in(left);
@@ -46,13 +47,15 @@ std::vector<Message> messages_in(ByteView datagram) {
   std::vector<Message> messages;
   for (ByteView left = datagram; !left.empty();) {
     if (left.size() < kHeaderBytes)
-      throw Error("the last " + std::to_string(left.size()) + " bytes of a datagram are no message");
+      throw Error("the last " + std::to_string(left.size()) + " bytes of a datagram are no message",
+                  VrpnProblem::no_header, {std::to_string(left.size())});
     const std::uint32_t length = length_in(left);
     if (const std::string fault = fault_of_length(length); !fault.empty())
-      throw Error("a datagram with " + fault);
+      throw Error("a datagram with " + fault, VrpnProblem::impossible_length, {std::to_string(length)});
     if (left.size() < length)
       throw Error("a message of " + std::to_string(length) + " bytes in a datagram that ends after " +
-                  std::to_string(left.size()));
+                      std::to_string(left.size()),
+                  VrpnProblem::cut_off, {std::to_string(length), std::to_string(left.size())});
     messages.push_back(message_in(left));
     left = left.subspan(std::min(padded(length), left.size()));
   }

@@ -8,6 +8,14 @@
 
 namespace astro::truth::vrpn {
 
+/// Why bytes are not those of VRPN.
+enum class VrpnProblem {
+  other_program,
+  impossible_length,  // values: the length, and in a stream the byte at which its message begins
+  no_header,          // value: the bytes that are left
+  cut_off             // values: the length, and the bytes that are left
+};
+
 /// The messages of one TCP connection, from bytes that arrive in any pieces.
 ///
 /// Errors  next() throws astro::Error, a clause that says at which byte of the connection the other side

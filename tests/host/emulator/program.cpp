@@ -156,13 +156,8 @@ Program::Program(const std::string& code) {
   teensy_ = std::make_unique<Teensy>(hex(), sim::Config{}, HandOver::tidy);
 }
 
-std::string Program::stopped_by(std::chrono::nanoseconds limit) {
-  try {
-    teensy_->run_for(limit);
-  } catch (const Stopped& stopped) {
-    return stopped.what();
-  }
-  return "";
+Remark Program::fault(std::chrono::nanoseconds limit) {
+  return support::told_by([&] { teensy_->run_for(limit); });
 }
 
 }  // namespace astro::emulator

@@ -7,6 +7,7 @@
 
 #include "host/emulator/core/machine.hpp"
 #include "host/emulator/robot/teensy.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::emulator {
@@ -36,8 +37,10 @@ class Program {
   Teensy& teensy() { return *teensy_; }
   /// Word n of the program's results.
   std::uint32_t result(std::uint32_t n) { return teensy_->word_at(Memory::kDtcm + 4 * n); }
-  /// What ended the run, or "" if nothing did.
-  std::string stopped_by(std::chrono::nanoseconds limit = 1ms);
+  /// What ended the run; no sentence if nothing did.
+  Remark fault(std::chrono::nanoseconds limit = 1ms);
+  /// The same as a sentence: "" if nothing did.
+  std::string stopped_by(std::chrono::nanoseconds limit = 1ms) { return fault(limit).sentence; }
   /// Where the image was built.
   std::filesystem::path hex() const { return folder_.path() / "program.hex"; }
 

@@ -8,7 +8,7 @@
 namespace astro::emulator {
 namespace {
 
-using testing::HasSubstr;
+using support::Tells;
 
 const std::string kPin = R"(
     set CCM_CCGR1, 0xFFFFFFFF
@@ -79,10 +79,10 @@ TEST(Adc, TheCalibrationBitStaysUntilItIsDone) {
 }
 
 TEST(Adc, AConversionBeforeTheCalibrationIsRefused) {
-  EXPECT_THAT(Program(kPin + "  set ADC1_CFG, 0x073B\n set ADC1_HC0, 7").stopped_by(),
-              HasSubstr("ADC1 HC0: a conversion before the calibration"));
-  EXPECT_THAT(Program(kPin + "  set ADC1_CFG, 0x073B\n set ADC1_GC, 0x80\n set ADC1_HC0, 7").stopped_by(),
-              HasSubstr("ADC1 HC0: a conversion before the calibration"));
+  EXPECT_THAT(Program(kPin + "  set ADC1_CFG, 0x073B\n set ADC1_HC0, 7").fault(),
+              Tells(AdcProblem::not_calibrated));
+  EXPECT_THAT(Program(kPin + "  set ADC1_CFG, 0x073B\n set ADC1_GC, 0x80\n set ADC1_HC0, 7").fault(),
+              Tells(AdcProblem::not_calibrated));
 }
 
 TEST(Adc, AResetForgetsTheCalibration) {
@@ -98,13 +98,13 @@ TEST(Adc, AResetForgetsTheCalibration) {
   )");
   program.teensy().run_for(kLong);
   program.teensy().press_reset();
-  EXPECT_THAT(program.stopped_by(), HasSubstr("ADC1 HC0: a conversion before the calibration"));
+  EXPECT_THAT(program.fault(), Tells(AdcProblem::not_calibrated));
 }
 
 TEST(Adc, TheKeeperOfThePadMustBeOff) {
   EXPECT_THAT(Program(kCalibrated + "  set IOMUXC_SW_PAD_CTL_PAD_GPIO_AD_B1_02, 0x10B0\n set ADC1_HC0, 7")
-                  .stopped_by(kLong),
-              HasSubstr("ADC1 HC0: the keeper of the pad falsifies what it reads"));
+                  .fault(kLong),
+              Tells(AdcProblem::keeper_on));
 }
 
 TEST(Adc, TheKeeperIsOnAfterAReset) {
@@ -115,12 +115,11 @@ TEST(Adc, TheKeeperIsOnAfterAReset) {
     until ADC1_GC, 0x80, 0
     set ADC1_HC0, 7
   )");
-  EXPECT_THAT(program.stopped_by(kLong), HasSubstr("the keeper of the pad"));
+  EXPECT_THAT(program.fault(kLong), Tells(AdcProblem::keeper_on));
 }
 
 TEST(Adc, NothingIsConnectedToOtherChannels) {
-  EXPECT_THAT(Program(kCalibrated + "  set ADC1_HC0, 8").stopped_by(kLong),
-              HasSubstr("ADC1 HC0: nothing is connected to this channel"));
+  EXPECT_THAT(Program(kCalibrated + "  set ADC1_HC0, 8").fault(kLong), Tells(AdcProblem::not_connected));
   EXPECT_EQ(Program(kCalibrated + "  set ADC1_HC0, 31").stopped_by(kLong), "") << "off";
 }
 
@@ -134,16 +133,16 @@ TEST(Adc, SwitchedOffItEndsTheConversionUnderWay) {
 }
 
 TEST(Adc, AConversionIsNotBegunWhileAnotherOneRuns) {
-  EXPECT_THAT(Program(kCalibrated + "  set ADC1_HC0, 7\n set ADC1_HC0, 7").stopped_by(kLong),
-              HasSubstr("ADC1 HC0: a conversion is begun while another one runs, which is lost"));
+  EXPECT_THAT(Program(kCalibrated + "  set ADC1_HC0, 7\n set ADC1_HC0, 7").fault(kLong),
+              Tells(AdcProblem::busy));
 }
 
 TEST(Adc, OtherResolutionsAreRefusedTheOneAfterAResetIncluded) {
   const std::string calibrate = "  set ADC1_GC, 0x80\n until ADC1_GC, 0x80, 0\n";
-  EXPECT_THAT(Program(kPin + calibrate + "  set ADC1_HC0, 7").stopped_by(kLong),
-              HasSubstr("ADC1 CFG: only 12 bits are modelled"));
-  EXPECT_THAT(Program(kPin + "  set ADC1_CFG, 0x0737\n" + calibrate + "  set ADC1_HC0, 7").stopped_by(kLong),
-              HasSubstr("ADC1 CFG: only 12 bits are modelled"));
+  EXPECT_THAT(Program(kPin + calibrate + "  set ADC1_HC0, 7").fault(kLong),
+              Tells(AdcProblem::resolution_not_modelled));
+  EXPECT_THAT(Program(kPin + "  set ADC1_CFG, 0x0737\n" + calibrate + "  set ADC1_HC0, 7").fault(kLong),
+              Tells(AdcProblem::resolution_not_modelled));
 }
 
 }  // namespace

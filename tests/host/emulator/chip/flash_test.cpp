@@ -8,9 +8,9 @@
 namespace astro::emulator {
 namespace {
 
+using support::Tells;
 using testing::Each;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 // The flash cannot be read while it works, so these lines run from ITCM.
 const std::string kCommands = R"(
@@ -66,7 +66,8 @@ struct Worker : Program {
   explicit Worker(const std::string& code) : Program(kCommands + in_ram(code)) {
     teensy().flash().times.erase = 1'000 * kCyclesPerMicrosecond;
   }
-  std::string outcome() { return stopped_by(10ms); }
+  Remark fault() { return Program::fault(10ms); }
+  std::string outcome() { return fault().sentence; }
   std::span<std::uint8_t> parameters() { return teensy().flash().parameters(); }
 };
 
@@ -75,11 +76,10 @@ constexpr const char* kCached = "unlock\n set SCB_CCR, 0x30000\n enable\n erase 
 
 TEST(Flash, IsNotReadFromALineThatMayHaveBeenFetchedWhileItWorked) {
   constexpr const char* kOtherSector = "  get 0x601F0020\n";
-  EXPECT_THAT(
-      Worker(std::string(kCached) + kOtherSector).outcome(),
-      HasSubstr("data cache: 0x601F0020 is read, whose line may have been fetched while the flash was busy"));
-  EXPECT_THAT(Worker(std::string(kCached) + "set SCB_DCIMVAC, 0x601F0000\n" + kOtherSector).outcome(),
-              HasSubstr("data cache: 0x601F0020"))
+  EXPECT_THAT(Worker(std::string(kCached) + kOtherSector).fault(),
+              Tells(ChipProblem::stale_cache_line, "0x601F0020"));
+  EXPECT_THAT(Worker(std::string(kCached) + "set SCB_DCIMVAC, 0x601F0000\n" + kOtherSector).fault(),
+              Tells(ChipProblem::stale_cache_line, "0x601F0020"))
       << "the line before";
   EXPECT_EQ(Worker(std::string(kCached) + "set SCB_DCIMVAC, 0x601F0020\n" + kOtherSector).outcome(), "");
 }
@@ -134,18 +134,17 @@ TEST(Flash, APageHas256Bytes) {
   EXPECT_EQ(page.outcome(), "");
   EXPECT_THAT(page.parameters().first(256), Each(0));
   Worker more(".equ BYTES, 264\n" + feed);
-  EXPECT_THAT(more.outcome(), HasSubstr("NOR flash: more than a page is programmed at once"));
+  EXPECT_THAT(more.fault(), Tells(FlashProblem::more_than_a_page));
 }
 
 TEST(Flash, WithoutWriteEnableNothingIsWritten) {
-  EXPECT_THAT(Worker("unlock\n write 0x1F0000, 0, 0").outcome(),
-              HasSubstr("NOR flash: programming or erasing without write enable (0x06) is ignored"));
-  EXPECT_THAT(Worker("unlock\n erase 0x1F0000").outcome(), HasSubstr("without write enable (0x06)"));
+  EXPECT_THAT(Worker("unlock\n write 0x1F0000, 0, 0").fault(), Tells(FlashProblem::not_write_enabled));
+  EXPECT_THAT(Worker("unlock\n erase 0x1F0000").fault(), Tells(FlashProblem::not_write_enabled));
 }
 
 TEST(Flash, EachWriteNeedsItsOwnWriteEnable) {
   Worker program("unlock\n enable\n write 0x1F0000, 0, 0\n idle\n write 0x1F0008, 0, 0");
-  EXPECT_THAT(program.outcome(), HasSubstr("without write enable (0x06)"));
+  EXPECT_THAT(program.fault(), Tells(FlashProblem::not_write_enabled));
 }
 
 TEST(Flash, TheStatusTellsBusyAndEnabled) {
@@ -186,33 +185,31 @@ TEST(Flash, APageAndASectorTakeTheirTypicalTimes) {
 TEST(Flash, WhileItWorksItTakesNoCommandButTheStatus) {
   for (const char* command :
        {"enable", "write 0x1F0100, 0, 0", "erase 0x1F1000", "command 0x2401049F, 0, 0, 3"})
-    EXPECT_THAT(Worker(std::string("unlock\n enable\n write 0x1F0000, 0, 0\n") + command).outcome(),
-                HasSubstr("NOR flash: a command while the last one runs is ignored"))
+    EXPECT_THAT(Worker(std::string("unlock\n enable\n write 0x1F0000, 0, 0\n") + command).fault(),
+                Tells(FlashProblem::busy))
         << command;
 }
 
 TEST(Flash, NobodyReadsItWhileItWorks) {
-  EXPECT_THAT(Worker("unlock\n enable\n write 0x1F0000, 0, 0\n get 0x60001000").outcome(),
-              HasSubstr("NOR flash: 0x60001000 is read while the flash is busy"));
+  EXPECT_THAT(Worker("unlock\n enable\n write 0x1F0000, 0, 0\n get 0x60001000").fault(),
+              Tells(ChipProblem::busy_flash_read, "0x60001000"));
 }
 
 TEST(Flash, NobodyExecutesItWhileItWorks) {
   Worker program("unlock\n enable\n write 0x1F0000, 0, 0\n ldr r3, =main\n bx r3");
-  EXPECT_THAT(program.outcome(), HasSubstr("is executed while the flash is busy"));
+  EXPECT_THAT(program.fault(), Tells(ChipProblem::busy_flash_executed));
 }
 
 TEST(Flash, AnInterruptWhoseHandlerLiesInItIsNotServedWhileItWorks) {
   Worker program("unlock\n enable\n erase 0x1F0000\n set SysTick_RVR, 5999\n set SysTick_CSR, 7");
-  EXPECT_THAT(program.outcome(), HasSubstr("while the flash is busy"));
+  EXPECT_THAT(program.fault(), Tells(ChipProblem::busy_flash_executed));
 }
 
 TEST(Flash, OnlyTheParametersSectorsAreWritten) {
-  EXPECT_THAT(
-      Worker("unlock\n enable\n erase 0x1EF000").outcome(),
-      HasSubstr(
-          "NOR flash: 0x1EF000 does not belong to the parameters: the program or the boot loader is there"));
-  EXPECT_THAT(Worker("unlock\n enable\n write 0x1FF000, 0, 0").outcome(),
-              HasSubstr("NOR flash: 0x1FF000 does not belong to the parameters"));
+  EXPECT_THAT(Worker("unlock\n enable\n erase 0x1EF000").fault(),
+              Tells(FlashProblem::outside_parameters, "0x1EF000"));
+  EXPECT_THAT(Worker("unlock\n enable\n write 0x1FF000, 0, 0").fault(),
+              Tells(FlashProblem::outside_parameters, "0x1FF000"));
 }
 
 TEST(Flash, ItsIdentityIsTheW25q16s) {
@@ -248,53 +245,46 @@ TEST(Flash, TheRomFindsNoImageInABusyFlash) {
   Worker program("unlock\n enable\n erase 0x1F0000");
   program.teensy().run_for(500us);
   program.teensy().press_reset();
-  EXPECT_THAT(program.outcome(),
-              HasSubstr("NOR flash: the boot ROM reads it while it is busy, and finds nothing"));
+  EXPECT_THAT(program.fault(), Tells(ChipProblem::image_in_busy_flash));
 }
 
 TEST(Flexspi, TheTableIsLockedUntilItsKeyIsGiven) {
-  EXPECT_THAT(Program("set FLEXSPI_LUT60, 0x0406").stopped_by(),
-              HasSubstr("FLEXSPI LUT60: the table is locked"));
-  EXPECT_THAT(Program("set FLEXSPI_LUTKEY, 0x5AF05AF1").stopped_by(),
-              HasSubstr("FLEXSPI LUTKEY: not the key"));
-  EXPECT_THAT(Program("set FLEXSPI_LUTCR, 2").stopped_by(),
-              HasSubstr("FLEXSPI LUTCR: written without the key"));
+  EXPECT_THAT(Program("set FLEXSPI_LUT60, 0x0406").fault(), Tells(FlexspiProblem::table_locked));
+  EXPECT_THAT(Program("set FLEXSPI_LUTKEY, 0x5AF05AF1").fault(), Tells(FlexspiProblem::wrong_key));
+  EXPECT_THAT(Program("set FLEXSPI_LUTCR, 2").fault(), Tells(FlexspiProblem::without_key));
 }
 
 TEST(Flexspi, TheKeyIsForOneWriteAndLocksAsWell) {
-  EXPECT_THAT(Worker("unlock\n set FLEXSPI_LUTCR, 1").outcome(),
-              HasSubstr("FLEXSPI LUTCR: written without the key"));
-  EXPECT_THAT(Worker("unlock\n set FLEXSPI_LUTKEY, 0x5AF05AF0\n set FLEXSPI_LUTCR, 1\n set FLEXSPI_LUT61, 0")
-                  .outcome(),
-              HasSubstr("the table is locked"));
+  EXPECT_THAT(Worker("unlock\n set FLEXSPI_LUTCR, 1").fault(), Tells(FlexspiProblem::without_key));
+  EXPECT_THAT(
+      Worker("unlock\n set FLEXSPI_LUTKEY, 0x5AF05AF0\n set FLEXSPI_LUTCR, 1\n set FLEXSPI_LUT61, 0").fault(),
+      Tells(FlexspiProblem::table_locked));
 }
 
 TEST(Flexspi, OnlyTheLastSequenceIsTheFirmwares) {
-  EXPECT_THAT(Worker("unlock\n set FLEXSPI_IPCR1, 0x00000000\n set FLEXSPI_IPCMD, 1").outcome(),
-              HasSubstr("FLEXSPI IPCR1: only sequence 15 is the firmware's"));
-  EXPECT_THAT(Worker("unlock\n set FLEXSPI_IPCR1, 0x010F0000\n set FLEXSPI_IPCMD, 1").outcome(),
-              HasSubstr("FLEXSPI IPCR1: only sequence 15 is the firmware's"));
+  EXPECT_THAT(Worker("unlock\n set FLEXSPI_IPCR1, 0x00000000\n set FLEXSPI_IPCMD, 1").fault(),
+              Tells(FlexspiProblem::sequence_not_the_firmwares));
+  EXPECT_THAT(Worker("unlock\n set FLEXSPI_IPCR1, 0x010F0000\n set FLEXSPI_IPCMD, 1").fault(),
+              Tells(FlexspiProblem::sequence_not_the_firmwares));
 }
 
 TEST(Flexspi, ACommandIsNotTriggeredWhileAnotherOneRuns) {
   EXPECT_THAT(
-      Worker("unlock\n prepare 0x0406, 0, 0, 0\n set FLEXSPI_IPCMD, 1\n set FLEXSPI_IPCMD, 1").outcome(),
-      HasSubstr("FLEXSPI IPCMD: triggered while command 0x"));
+      Worker("unlock\n prepare 0x0406, 0, 0, 0\n set FLEXSPI_IPCMD, 1\n set FLEXSPI_IPCMD, 1").fault(),
+      Tells(FlexspiProblem::command_under_way, "0x06"));
 }
 
 TEST(Flexspi, StepsAndCommandsThatNobodyKnowsAreRefused) {
-  EXPECT_THAT(Worker("unlock\n command 0x0C010406").outcome(),
-              HasSubstr("FLEXSPI LUT60: a step with code 3 is not modelled"));
-  EXPECT_THAT(Worker("unlock\n command 0x04C7").outcome(),
-              HasSubstr("FLEXSPI LUT60: the flash does not know command 0xC7"));
+  EXPECT_THAT(Worker("unlock\n command 0x0C010406").fault(), Tells(FlexspiProblem::step_not_modelled, "3"));
+  EXPECT_THAT(Worker("unlock\n command 0x04C7").fault(), Tells(FlexspiProblem::command_unknown, "0xC7"));
 }
 
 TEST(Flexspi, ACommandNeedsTheStepsThatTheFlashExpectsOfIt) {
   for (const char* sequence :
        {"0x0402, 0x2001, 0x1F0000, 8", "0x08180402, 0, 0x1F0000, 0", "0x0420, 0, 0x1F0000", "0x0405, 0, 0, 1",
         "0x049F, 0, 0, 3", "0x08180406, 0, 0x1F0000"})
-    EXPECT_THAT(Worker(std::string("unlock\n enable\n pair 0, 0\n command ") + sequence).outcome(),
-                HasSubstr("FLEXSPI LUT60: not the steps of command 0x"))
+    EXPECT_THAT(Worker(std::string("unlock\n enable\n pair 0, 0\n command ") + sequence).fault(),
+                Tells(FlexspiProblem::wrong_steps))
         << sequence;
 }
 
@@ -346,7 +336,7 @@ TEST(Flexspi, ItsQueueTakes128Bytes) {
   EXPECT_EQ(full.outcome(), "");
   EXPECT_EQ(full.result(0) & 0x40, 0U) << "IPTXWE: no room";
   Worker more("unlock\n movs r5, #17\n1: pair 0, 0\n subs r5, #1\n bne 1b");
-  EXPECT_THAT(more.outcome(), HasSubstr("FLEXSPI TFDR0: overrun, the queue to the flash is full"));
+  EXPECT_THAT(more.fault(), Tells(FlexspiProblem::overrun));
 }
 
 TEST(Flexspi, AnswersStayUntilTheQueueIsCleared) {
@@ -368,8 +358,7 @@ TEST(Flexspi, AnswersStayUntilTheQueueIsCleared) {
 }
 
 TEST(Flexspi, NothingIsReadFromAnEmptyQueue) {
-  EXPECT_THAT(Worker("get FLEXSPI_RFDR0").outcome(),
-              HasSubstr("FLEXSPI RFDR0: read while the flash has sent nothing"));
+  EXPECT_THAT(Worker("get FLEXSPI_RFDR0").fault(), Tells(FlexspiProblem::nothing_received));
 }
 
 }  // namespace

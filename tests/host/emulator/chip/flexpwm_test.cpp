@@ -6,7 +6,7 @@
 namespace astro::emulator {
 namespace {
 
-using testing::HasSubstr;
+using support::Tells;
 
 const std::string kClock = "  set CCM_CCGR4, 0xFFFFFFFF\n";
 const std::string kFaultsOff = kClock + R"(
@@ -110,8 +110,8 @@ TEST(FlexPwm, ValuesWithoutLdokAreNotTaken) {
 TEST(FlexPwm, ValuesAreLockedWhileTheLastOnesWait) {
   for (const char* name :
        {"SM2_INIT", "SM2_VAL0", "SM2_VAL1", "SM2_VAL2", "SM2_VAL3", "SM2_VAL4", "SM2_VAL5"})
-    EXPECT_THAT(Program(kFaultsOff + kValues + "  set16 PWM2_" + name + ", 1").stopped_by(),
-                HasSubstr("PWM2 SM2: values are written while the last ones wait to be loaded (MCTRL.LDOK)"))
+    EXPECT_THAT(Program(kFaultsOff + kValues + "  set16 PWM2_" + name + ", 1").fault(),
+                Tells(PwmProblem::values_wait))
         << name;
 }
 
@@ -184,20 +184,19 @@ TEST(FlexPwm, AFaultSwitchesOffWhatItIsMappedToAlone) {
 }
 
 TEST(FlexPwm, WhatIsNotModelledIsRefused) {
-  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL, 0x0410").stopped_by(),
-              HasSubstr("PWM2 SM2_CTRL: a prescaler is not modelled"));
-  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL, 0").stopped_by(),
-              HasSubstr("PWM2 SM2_CTRL: without FULL nothing is loaded when a period ends"));
-  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL2, 0x6110").stopped_by(),
-              HasSubstr("PWM2 SM2_CTRL2: only the bus clock and a start of its own are modelled"));
-  EXPECT_THAT(Program(kClock + "  set16 PWM2_OUTEN, 0x440").stopped_by(),
-              HasSubstr("PWM2 OUTEN: complementary outputs are not modelled (SM2_CTRL2.INDEP)"));
-  EXPECT_THAT(Program(kClock + "  set16 PWM2_FCTRL0, 0x0100").stopped_by(),
-              HasSubstr("PWM2 FCTRL0: only faults that the firmware clears are modelled"));
-  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_OCTRL, 0x0400").stopped_by(),
-              HasSubstr("PWM2 SM2_OCTRL: only 0 is modelled"));
-  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_FRCTRL, 4").stopped_by(),
-              HasSubstr("PWM2 SM2_FRCTRL: only 0 is modelled"));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL, 0x0410").fault(),
+              Tells(PwmProblem::prescaler_not_modelled));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL, 0").fault(), Tells(PwmProblem::never_loaded));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_CTRL2, 0x6110").fault(),
+              Tells(PwmProblem::clock_not_modelled));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_OUTEN, 0x440").fault(),
+              Tells(PwmProblem::complementary_not_modelled));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_FCTRL0, 0x0100").fault(),
+              Tells(PwmProblem::fault_mode_not_modelled));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_OCTRL, 0x0400").fault(),
+              Tells(PwmProblem::output_control_not_modelled));
+  EXPECT_THAT(Program(kClock + "  set16 PWM2_SM2_FRCTRL, 4").fault(),
+              Tells(PwmProblem::fractions_not_modelled));
 }
 
 TEST(Bridges, DirectionPinsAndPwmDriveTheMotorsAsTheDriversTruthTableSays) {

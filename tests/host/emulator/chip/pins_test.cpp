@@ -6,7 +6,7 @@
 namespace astro::emulator {
 namespace {
 
-using testing::HasSubstr;
+using support::Tells;
 
 TEST(Gpio, TheFastPortDrivesThePinsThatItWasGiven) {
   Program program(R"(
@@ -47,16 +47,14 @@ TEST(Gpio, ThePadsStateIsTheOutputsAndWhatTheWorldApplies) {
 }
 
 TEST(Gpio, TheFastPortCannotMoveAPinOfTheSlowOne) {
-  EXPECT_THAT(Program("set GPIO7_DR_SET, 1").stopped_by(),
-              HasSubstr("GPIO7 DR: moves pins that belong to GPIO2 (IOMUXC_GPR GPR27)"));
-  EXPECT_THAT(Program("set IOMUXC_GPR_GPR26, 1\n set GPIO6_GDIR, 3").stopped_by(),
-              HasSubstr("GPIO6 GDIR: moves pins that belong to GPIO1 (IOMUXC_GPR GPR26)"));
+  EXPECT_THAT(Program("set GPIO7_DR_SET, 1").fault(), Tells(GpioProblem::pins_of_other_port, "7", "DR", "2"));
+  EXPECT_THAT(Program("set IOMUXC_GPR_GPR26, 1\n set GPIO6_GDIR, 3").fault(),
+              Tells(GpioProblem::pins_of_other_port, "6", "GDIR", "1"));
 }
 
 TEST(Gpio, TheSlowPortCannotMoveAPinOfTheFastOne) {
   Program program("set IOMUXC_GPR_GPR27, 0x8\n set GPIO2_DR_TOGGLE, 0x8");
-  EXPECT_THAT(program.stopped_by(),
-              HasSubstr("GPIO2 DR: moves pins that belong to GPIO7 (IOMUXC_GPR GPR27)"));
+  EXPECT_THAT(program.fault(), Tells(GpioProblem::pins_of_other_port, "2", "DR", "7"));
 }
 
 TEST(Gpio, PinsThatDoNotChangeMayBelongToTheOtherPort) {
@@ -73,18 +71,17 @@ TEST(Gpio, WhoOwnsAPinIsForgottenByAReset) {
 }
 
 TEST(Gpio, ThePadsStateIsReadOnly) {
-  EXPECT_THAT(Program("set GPIO2_PSR, 1").stopped_by(), HasSubstr("GPIO2 PSR: cannot be written"));
+  EXPECT_THAT(Program("set GPIO2_PSR, 1").fault(), Tells(GpioProblem::pad_state_written, "2"));
 }
 
 TEST(Gpio, InterruptsOfThePinsAreRefused) {
-  EXPECT_THAT(Program("set GPIO7_IMR, 1").stopped_by(),
-              HasSubstr("GPIO7 IMR: interrupts of the pins are not modelled"));
+  EXPECT_THAT(Program("set GPIO7_IMR, 1").fault(), Tells(GpioProblem::interrupts_not_modelled, "7"));
   EXPECT_EQ(Program("set GPIO7_IMR, 0\n set GPIO7_ISR, 0xFFFFFFFF").stopped_by(), "");
 }
 
 TEST(Gpio, TheSlowPortsNeedTheirClockAndTheFastOnesNone) {
-  EXPECT_THAT(Program("set CCM_CCGR0, 0x3FFFFFFF\n get GPIO2_DR").stopped_by(),
-              HasSubstr("GPIO2 DR: read while its clock is off (CCM CCGR0 CG15)"));
+  EXPECT_THAT(Program("set CCM_CCGR0, 0x3FFFFFFF\n get GPIO2_DR").fault(),
+              Tells(AccessProblem::clock_off, "GPIO2 DR", "read", "0", "15"));
   EXPECT_EQ(Program("set CCM_CCGR0, 0\n get GPIO7_DR").stopped_by(), "");
 }
 
@@ -133,14 +130,13 @@ TEST(FlexRam, BehindItsBanksNobodyAnswers) {
 }
 
 TEST(FlexRam, TheVectorsOfTheNextResetStayWithTheRom) {
-  EXPECT_THAT(Program("set IOMUXC_GPR_GPR16, 7").stopped_by(),
-              HasSubstr("IOMUXC_GPR GPR16: the vectors of the next reset must stay with the ROM"));
+  EXPECT_THAT(Program("set IOMUXC_GPR_GPR16, 7").fault(), Tells(FlexRamProblem::vectors_moved));
 }
 
 TEST(FlexRam, TheSizesOfTheCoupledMemoriesAreWithinTheirCodes) {
   for (const char* sizes : {"0x00A20000", "0x002A0000", "0x00B00000", "0x000B0000"})
-    EXPECT_THAT(Program(std::string("set IOMUXC_GPR_GPR14, ") + sizes).stopped_by(),
-                HasSubstr("IOMUXC_GPR GPR14: the sizes of the coupled memories are codes 3 (4 KB) to 10"))
+    EXPECT_THAT(Program(std::string("set IOMUXC_GPR_GPR14, ") + sizes).fault(),
+                Tells(FlexRamProblem::size_unknown))
         << sizes;
 }
 

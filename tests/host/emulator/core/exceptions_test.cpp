@@ -6,7 +6,7 @@
 namespace astro::emulator {
 namespace {
 
-using testing::HasSubstr;
+using support::Tells;
 
 constexpr std::uint32_t kUsageFault = 6, kBusFault = 5, kMemManage = 4, kHardFault = 3;
 
@@ -327,28 +327,28 @@ TEST(Faults, AStackThatOverflowsDuringEntryLeavesItsHandlerWithoutAFrame) {
 
 TEST(Faults, AnExceptionWithoutAHandlerEndsTheRun) {
   Program program("set SCB_VTOR, 0x60000000\n svc #0");
-  EXPECT_THAT(program.stopped_by(), HasSubstr("exception 11 has no handler in the vector table"));
+  EXPECT_THAT(program.fault(), Tells(ExceptionProblem::no_handler, "11"));
 }
 
 TEST(Faults, TheProcessStackEndsTheRun) {
   Program program("ldr r0, =0x20050000\n msr psp, r0\n movs r0, #2\n msr control, r0\n isb\n svc #0");
-  EXPECT_THAT(program.stopped_by(), HasSubstr("the process stack is not modelled"));
+  EXPECT_THAT(program.fault(), Tells(ExceptionProblem::process_stack_used));
 }
 
 TEST(Faults, WaitingForAnEventEndsTheRun) {
-  EXPECT_THAT(Program("wfe").stopped_by(), HasSubstr("WFE is not modelled"));
+  EXPECT_THAT(Program("wfe").fault(), Tells(ChipProblem::wait_for_event_not_modelled));
 }
 
 TEST(Exceptions, AReturnToAStackOrAContextThatNobodyUsesIsRefused) {
   for (const char* value : {"0xFFFFFFFD", "0xFFFFFFED", "0xFFFFFFE9"})
-    EXPECT_THAT(Program(std::string("svc #0\n handler 11\n ldr r0, =") + value + "\n bx r0").stopped_by(),
-                HasSubstr("asks for a stack or a context that is not used here"))
+    EXPECT_THAT(Program(std::string("svc #0\n handler 11\n ldr r0, =") + value + "\n bx r0").fault(),
+                Tells(ExceptionProblem::context_unused_here, value))
         << value;
 }
 
 TEST(Exceptions, AReturnNeedsItsFrame) {
-  EXPECT_THAT(Program("svc #0\n handler 11\n ldr r0, =0x30000000\n mov sp, r0\n bx lr").stopped_by(),
-              HasSubstr("the stack at 0x30000000 is no memory to return from"));
+  EXPECT_THAT(Program("svc #0\n handler 11\n ldr r0, =0x30000000\n mov sp, r0\n bx lr").fault(),
+              Tells(ExceptionProblem::stack_in_no_memory, "0x30000000"));
 }
 
 TEST(Exceptions, WhereRegistersAreNothingIsExecuted) {

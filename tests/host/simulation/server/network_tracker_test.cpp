@@ -8,20 +8,25 @@
 #include <optional>
 
 #include "host/base/error.hpp"
+#include "host/base/socket.hpp"
 #include "host/truth/live/live_source.hpp"
 #include "host/truth/live/natnet_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
 #include "host/truth/trackers/natnet_packet.hpp"
 #include "host/truth/trackers/vrpn_tracker.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::simulation {
 namespace {
 
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
+using support::Tells;
+using support::ThrowsTelling;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
+using truth::LiveProblem;
 
 recording::TruthSample sample_at(double x_m, double theta_rad) {
   recording::TruthSample sample;
@@ -149,25 +154,17 @@ TEST(NetworkTracker, ItsPosesComeToAVrpnClientWithTheTimeOfTheExposure) {
 
 TEST(NetworkTracker, ABodyThatItDoesNotKnowIsNamedWithThoseThatItDoes) {
   Lab lab(with_vrpn());
-  try {
-    open(lab, url_of(lab, "ROBOT"));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "no ground truth comes from 127.0.0.1:" + std::to_string(lab.tracker.vrpn()->port()) +
-                  ": it knows no 'ROBOT'; it has described 'ASTRO'");
-  }
+  const truth::TrackerUrl url = url_of(lab, "ROBOT");
+  EXPECT_THAT([&] { open(lab, url); }, ThrowsTelling(LiveProblem::tracker_silent, url.place(),
+                                                     "it knows no 'ROBOT'; it has described 'ASTRO'"));
 }
 
 TEST(NetworkTracker, ABodyThatIsNotSeenIsNamedAsSuch) {
   Lab lab(with_vrpn());
   lab.sees = false;
-  try {
-    open(lab, url_of(lab));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::EndsWith(": it knows 'ASTRO' but sends no pose of it"));
-  }
+  const truth::TrackerUrl url = url_of(lab);
+  EXPECT_THAT([&] { open(lab, url); }, ThrowsTelling(LiveProblem::tracker_silent, url.place(),
+                                                     "it knows 'ASTRO' but sends no pose of it"));
 }
 
 TEST(NetworkTracker, WhereNothingListensTheClientSaysSo) {
@@ -175,12 +172,10 @@ TEST(NetworkTracker, WhereNothingListensTheClientSaysSo) {
   net::Socket taken = net::listen_tcp(net::Address::loopback(0));
   const std::uint16_t port = net::Address::local(taken).port();
   taken = net::Socket();
-  try {
-    open(lab, truth::tracker_url_in("vrpn://127.0.0.1:" + std::to_string(port) + "/ASTRO"));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("nothing answers there, neither by TCP nor by a call back"));
-  }
+  const auto url = truth::tracker_url_in("vrpn://127.0.0.1:" + std::to_string(port) + "/ASTRO");
+  EXPECT_THAT([&] { open(lab, url); },
+              ThrowsTelling(LiveProblem::tracker_silent, url.place(),
+                            "nothing answers there, neither by TCP nor by a call back"));
 }
 
 TEST(NetworkTracker, AClientThatLosesItConnectsAgain) {
@@ -311,13 +306,8 @@ TEST(NetworkTracker, APortInUseIsNamed) {
   Lab lab(with_vrpn());
   NetworkTrackerConfig same = with_vrpn();
   same.vrpn_port = lab.tracker.vrpn()->port();
-  try {
-    NetworkTracker second(same);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("port " + std::to_string(lab.tracker.vrpn()->port()) + " of 127.0.0.1"));
-  }
+  EXPECT_THAT([&] { NetworkTracker{same}; }, ThrowsTelling(net::AddressProblem::port_unusable,
+                                                           std::to_string(*same.vrpn_port), "127.0.0.1"));
 }
 
 // ---- NatNet
@@ -418,22 +408,23 @@ TEST(NetworkTracker, ANatNetClientThatWasDroppedWhileNobodyListenedHasTruthBefor
 TEST(NetworkTracker, NoRunBeginsOnceItIsGone) {
   for (const NetworkTrackerConfig& config : {with_natnet(), with_vrpn()}) {
     Lab lab(config);
-    const auto source = open(lab, config.natnet_port ? natnet_url_of(lab) : url_of(lab));
+    const truth::TrackerUrl url = config.natnet_port ? natnet_url_of(lab) : url_of(lab);
+    const auto source = open(lab, url);
     lab.pass(milliseconds(100));  // the system keeps these poses
     lab.sees = false;
     lab.pass(milliseconds(100));
-    EXPECT_THROW(source->begin_run(), Error);
+    const auto why = config.natnet_port ? Tells(LiveProblem::tracker_silent, url.place(),
+                                                "Astrolabe has answered but sends no frames")
+                                        : Tells(LiveProblem::poses_ended, url.place(), "ASTRO");
+    EXPECT_THAT(support::told_by([&] { source->begin_run(); }), why);
   }
 }
 
 TEST(NetworkTracker, ANatNetBodyThatItDoesNotKnowIsNamedWithThoseThatItDoes) {
   Lab lab(with_natnet());
-  try {
-    open(lab, natnet_url_of(lab, "/ROBOT"));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::EndsWith(": it knows no 'ROBOT'; it tracks 'ASTRO'"));
-  }
+  const truth::TrackerUrl url = natnet_url_of(lab, "/ROBOT");
+  EXPECT_THAT([&] { open(lab, url); }, ThrowsTelling(LiveProblem::tracker_silent, url.place(),
+                                                     "it knows no 'ROBOT'; it tracks 'ASTRO'"));
   EXPECT_THAT(open(lab, natnet_url_of(lab, ""))->description(), HasSubstr("'ASTRO'")) << "the only one";
 }
 

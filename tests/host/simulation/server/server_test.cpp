@@ -19,6 +19,7 @@
 #include "host/robot/port/open_transport.hpp"
 #include "host/simulation/server/pty.hpp"
 #include "host/truth/live/socket_source.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::simulation {
@@ -212,25 +213,22 @@ TEST(Server, InFastMotionWaitsForAHostThatRegulatesVoltages) {
   thread.join();
 }
 
-std::string refusal(const std::filesystem::path& flash) {
+Remark refusal(const std::filesystem::path& flash) {
   const test::TemporaryFolder folder;
-  try {
+  return support::told_by([&] {
     const Server server(std::make_unique<Keeper>(), {folder.path() / "robot.pty", flash});
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(Server, RefusesAFlashFileThatItCannotWriteBeforeAnyRobotRuns) {
   const test::TemporaryFolder folder;
   const auto flash = folder.path() / "flash";
   std::filesystem::create_directory(folder.path() / "flash.part");
-  EXPECT_THAT(refusal(flash), testing::HasSubstr("flash.part"));
-  EXPECT_THAT(refusal("/proc/robot.flash"), testing::HasSubstr("/proc/robot.flash"))
+  EXPECT_THAT(refusal(flash).sentence, testing::HasSubstr("flash.part"));
+  EXPECT_THAT(refusal("/proc/robot.flash").sentence, testing::HasSubstr("/proc/robot.flash"))
       << "where nobody makes a file";
   std::filesystem::remove(folder.path() / "flash.part");
-  EXPECT_EQ(refusal(flash), "");
+  EXPECT_EQ(refusal(flash).sentence, "");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "flash.part")) << "the trial leaves nothing";
 }
 
@@ -310,7 +308,7 @@ TEST(Pty, DoesNotReplaceWhatIsNoSimulators) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "precious";
   std::ofstream(path) << "text";
-  EXPECT_THROW(Pty{path}, Error);
+  EXPECT_THAT([&] { Pty{path}; }, support::ThrowsTelling(ServerProblem::path_taken, path.string()));
   EXPECT_EQ(std::filesystem::file_size(path), 4U);
 }
 
@@ -362,7 +360,7 @@ TEST(Flash, ThatIsALinkIsRefusedAndNothingIsWrittenThroughOne) {
   fs::create_symlink(folder.path() / "nothing", folder.path() / "dangling");
   for (const char* name : {"flash", "dangling"})
     EXPECT_THAT([&] { load_flash(folder.path() / name); },
-                testing::ThrowsMessage<Error>(testing::HasSubstr("is a link")));
+                support::ThrowsTelling(ServerProblem::flash_is_link, (folder.path() / name).string()));
 }
 
 }  // namespace

@@ -5,17 +5,17 @@
 #include <numbers>
 
 #include "host/simulation/study/kinematic_source.hpp"
+#include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/shortest_programme.hpp"
 #include "host/simulation/study/summary.hpp"
-#include "tests/host/calibration/end_poses/square_runs.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::simulation::study {
 namespace {
 
 using calibration::Precision;
-using calibration::test::error_of;
 using support::Tells;
+using support::told_by;
 
 Forecast of(const Counts& counts) { return forecast(Programme{}.with(counts)); }
 
@@ -120,37 +120,32 @@ TEST(ShortestProgramme, FindsEWithCircles) {
   EXPECT_GT(found.programme.counts[kCircles], 0);
   EXPECT_GT(found.programme.counts[kSquares] + found.programme.counts[kSpins], 0);
   EXPECT_GT(found.driving_time_s, shortest_programme(target, all, Programme{}).driving_time_s);
-  const auto fact = [&](const std::vector<Kind>& kinds) {
-    return support::told_by([&] { (void)shortest_programme(target, kinds, Programme{}, 2e-3); }).sentence;
+  const auto told = [&](const std::vector<Kind>& kinds) {
+    return told_by([&] { (void)shortest_programme(target, kinds, Programme{}, 2e-3); });
   };
-  EXPECT_EQ(fact({kSquares, kLines}), "runs without circles hardly show e");
-  EXPECT_EQ(fact({kLines, kCircles}), "runs without squares and spins hardly tell e from the wheelbase");
+  EXPECT_THAT(told({kSquares, kLines}), Tells(ProgrammeProblem::no_circles));
+  EXPECT_THAT(told({kLines, kCircles}), Tells(ProgrammeProblem::no_squares_nor_spins));
 }
 
 TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
-  const auto told = [](const Counts& counts) { return support::told_by([&] { (void)of(counts); }); };
-  EXPECT_THAT(told({0, 0, 0, 0}), Tells("the programme is empty", Help::give_runs));
-  EXPECT_THAT(told({0, 7, 0, 0}),
-              Tells("lines never turn, so they do not determine the wheelbase", Help::add_turns));
-  EXPECT_THAT(told({0, 0, 7, 0}),
-              Tells("spins determine the ratio of wheels and wheelbase but no size", Help::add_lines));
-  EXPECT_THAT(told({0, 0, 0, 1}),
-              Tells("one circle turns in one direction only, which does not separate wheels and wheelbase",
-                    Help::drive_two_circles));
-  EXPECT_THAT(told({-1, 0, 0, 0}), Tells("the number of squares is -1: it has to be 0 to 1000", Help::none));
-  EXPECT_THAT(told({600, 600, 0, 0}),
-              Tells("the programme has 1200 runs and 1000 are the most", Help::drive_longer_runs));
+  const auto told = [](const Counts& counts) { return told_by([&] { (void)of(counts); }); };
+  EXPECT_THAT(told({0, 0, 0, 0}), Tells(ProgrammeProblem::no_runs));
+  EXPECT_THAT(told({0, 7, 0, 0}), Tells(ProgrammeProblem::lines_alone));
+  EXPECT_THAT(told({0, 0, 7, 0}), Tells(ProgrammeProblem::spins_alone));
+  EXPECT_THAT(told({0, 0, 0, 1}), Tells(ProgrammeProblem::one_circle));
+  EXPECT_THAT(told({-1, 0, 0, 0}), Tells(LimitProblem::out_of_range, "the number of squares", "-1"));
+  EXPECT_THAT(told({600, 600, 0, 0}), Tells(ProgrammeProblem::too_many_runs, "1200"));
   Programme vast;
   vast.side_m = 1000;
-  EXPECT_THAT(support::told_by([&] {
+  EXPECT_THAT(told_by([&] {
                 (void)forecast(vast.with({1000, 0, 0, 0}));
               }),
-              Tells("some 3705 hours of driving are more than fit into memory", Help::take_fewer_runs));
+              Tells(LimitProblem::exceeds_memory, "3705"));
   Programme flat;
   flat.side_m = 0;
-  EXPECT_EQ(error_of([&] {
+  EXPECT_EQ(told_by([&] {
               (void)forecast(flat.with({2, 0, 0, 0}));
-            }),
+            }).sentence,
             "the side of the squares in metres is 0, and has to be a positive number");
 }
 
@@ -209,12 +204,10 @@ TEST(ShortestProgramme, LooksAtEachOfTheThreeTargets) {
 
 TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
   const auto told = [](double target, const std::vector<Kind>& kinds) {
-    return support::told_by([&] { (void)shortest_programme({target, target, target}, kinds, Programme{}); });
+    return told_by([&] { (void)shortest_programme({target, target, target}, kinds, Programme{}); });
   };
-  EXPECT_THAT(told(5e-4, {kLines}),
-              Tells("lines never turn, so they do not determine the wheelbase", Help::add_turns));
-  EXPECT_THAT(told(1e-7, {kSquares}),
-              Tells("a precision this fine takes more than 1000 runs", Help::drive_longer_runs_or_ask_less));
+  EXPECT_THAT(told(5e-4, {kLines}), Tells(ProgrammeProblem::lines_alone));
+  EXPECT_THAT(told(1e-7, {kSquares}), Tells(ProgrammeProblem::precision_too_fine));
   EXPECT_EQ(told(0, {kSquares}).sentence,
             "the precision wanted of E_d is 0, and has to be a positive number");
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/study.hpp"
-#include "tests/host/calibration/end_poses/square_runs.hpp"
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/base/remarks.hpp"
 
@@ -14,8 +14,7 @@ namespace astro::simulation::study {
 namespace {
 
 using support::Tells;
-
-using calibration::test::error_of;
+using support::told_by;
 
 TEST(Shard, EachTrialIsInExactlyOne) {
   for (const int trials : {1, 7, 200, 1000003})
@@ -89,8 +88,8 @@ TEST(ShardFile, SaysWhichRobotDrove) {
   }
   std::string other = to_text(setup, some_trials(2, 6));
   other.replace(other.find("simulator"), 9, "emulator?");
-  EXPECT_EQ(error_of([&] { read_shard_file(other, "a.json"); }),
-            "'emulator?' is not a model of a robot: the models are kinematic and simulator");
+  EXPECT_THAT(told_by([&] { read_shard_file(other, "a.json"); }),
+              Tells(SetupProblem::model_unknown, "emulator?"));
 }
 
 TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
@@ -112,23 +111,25 @@ TEST(ShardFile, GivesBackWhatIsNoNumberAsThatAndNotAsNoAnswer) {
 }
 
 TEST(ShardFile, ThatIsNoneIsNamed) {
-  const auto none = support::Tells("'x.json' is not a shard of a study", Help::name_shard);
+  const auto none = Tells(StudyProblem::not_a_shard, "x.json");
   for (const std::string text : {"", "{}", "[1, 2", "{\"format\": 3", "name,x\n1,2\n"})
-    EXPECT_THAT(support::told_by([&] { read_shard_file(text, "x.json"); }), none) << text;
+    EXPECT_THAT(told_by([&] { read_shard_file(text, "x.json"); }), none) << text;
   std::string cut = to_text(of_trials(10), some_trials(0, 5));
   cut.resize(cut.size() / 2);
-  EXPECT_THAT(support::told_by([&] { read_shard_file(cut, "x.json"); }), none);
-  EXPECT_THAT(support::told_by(
-                  [&] { read_shard_file(R"({"format": "astrolabe study 0", "methods": []})", "x.json"); }),
-              support::Tells("'x.json' was written by another version of the study", Help::run_shard_again));
+  EXPECT_THAT(told_by([&] { read_shard_file(cut, "x.json"); }), none);
+  const std::string old = R"({"format": "astrolabe study 0", "methods": []})";
+  EXPECT_THAT(told_by([&] { read_shard_file(old, "x.json"); }),
+              Tells(StudyProblem::shard_of_other_version, "x.json"));
 }
 
 TEST(ShardFile, OfShortValuesThatWouldTakeManyTimesItsSizeIsRefusedUnread) {
   std::string text = "[";
   while (text.size() < 20'000'000) text += "[],";
-  const support::Taken taken = support::measured([&] { read_shard_file(text, "x.json"); });
+  const support::Taken taken = support::measured([&] {
+    EXPECT_THAT(told_by([&] { read_shard_file(text, "x.json"); }),
+                Tells(StudyProblem::not_a_shard, "x.json"));
+  });
   EXPECT_BOUNDED(taken, text.size());
-  EXPECT_EQ(taken.complaint, "'x.json' is not a shard of a study");
 }
 
 TEST(ShardFile, WithACountThatIsNoneIsRefused) {
@@ -137,24 +138,28 @@ TEST(ShardFile, WithACountThatIsNoneIsRefused) {
     std::string changed = text;
     const std::size_t at = changed.find("\"" + key + "\": ") + key.size() + 4;
     changed.replace(at, changed.find_first_of(",\n", at) - at, value);
-    return error_of([&] { merge({read_shard_file(changed, "x.json")}); });
+    return told_by([&] { merge({read_shard_file(changed, "x.json")}); });
   };
   for (const std::string count : {"1e300", "-1", "4294967306", "2.5", "1e999"}) {
-    EXPECT_NE(with("trials", count), "") << count;
-    EXPECT_NE(with("runs", count), "") << count;
-    EXPECT_NE(with("trial", count), "") << count;
+    EXPECT_NE(with("trials", count).sentence, "") << count;
+    EXPECT_NE(with("runs", count).sentence, "") << count;
+    EXPECT_NE(with("trial", count).sentence, "") << count;
   }
-  EXPECT_THAT(with("trials", "1000000000"), testing::HasSubstr("the number of trials is 1e+09"));
-  EXPECT_THAT(with("runs", "4294967306"), testing::HasSubstr("runs is 4294967306, not a whole number"));
-  EXPECT_THAT(with("trial", "-1"), testing::HasSubstr("trial is -1, not a whole number"));
-  EXPECT_EQ(with("seed", "1e300"), "the seed of a study is a whole number, not 1e+300");
+  EXPECT_THAT(with("trials", "1000000000"),
+              Tells(LimitProblem::out_of_range, "the number of trials", "1e+09"));
+  EXPECT_THAT(with("runs", "4294967306").sentence,
+              testing::HasSubstr("runs is 4294967306, not a whole number"));
+  EXPECT_THAT(with("trial", "-1").sentence, testing::HasSubstr("trial is -1, not a whole number"));
+  EXPECT_THAT(with("seed", "1e300"), Tells(SetupProblem::seed_not_whole, "1e+300"));
 }
 
 TEST(Merge, OfFewTrialsTakesMemoryForThoseAloneWhateverCountIsClaimed) {
   const std::vector<ShardFile> parts{part("a", 0, 4, of_trials(10'000'000))};
-  const support::Taken taken = support::measured([&] { merge(parts); });
+  const support::Taken taken = support::measured([&] {
+    EXPECT_THAT(told_by([&] { merge(parts); }),
+                Tells(StudyProblem::trials_missing, "10000000", "4", "9999999"));
+  });
   EXPECT_BOUNDED(taken, 0);
-  EXPECT_EQ(taken.complaint, "of 10000000 trials 4 to 9999999 are missing");
 }
 
 TEST(Merge, PutsTheTrialsInOrderWhateverTheOrderOfTheFiles) {
@@ -164,30 +169,24 @@ TEST(Merge, PutsTheTrialsInOrderWhateverTheOrderOfTheFiles) {
 }
 
 TEST(Merge, RefusesWhatIsNotOneWholeStudy) {
-  const auto told = [](const std::vector<ShardFile>& parts) {
-    return support::told_by([&] { merge(parts); });
-  };
-  EXPECT_THAT(told({}), Tells("there is nothing to merge", Help::name_all_shards));
-  EXPECT_THAT(told({part("a", 0, 4), part("b", 3, 10)}),
-              Tells("trial 3 is in 'a' and in 'b'", Help::name_shard_once));
-  EXPECT_THAT(told({part("a", 0, 4), part("b", 6, 10)}),
-              Tells("of 10 trials 4 to 5 are missing", Help::run_or_name_shard));
-  EXPECT_THAT(told({part("a", 1, 10)}), Tells("of 10 trials 0 are missing", Help::run_or_name_shard));
+  const auto told = [](const std::vector<ShardFile>& parts) { return told_by([&] { merge(parts); }); };
+  EXPECT_THAT(told({}), Tells(StudyProblem::no_shards));
+  EXPECT_THAT(told({part("a", 0, 4), part("b", 3, 10)}), Tells(StudyProblem::trial_twice, "3", "a", "b"));
+  EXPECT_THAT(told({part("a", 0, 4), part("b", 6, 10)}), Tells(StudyProblem::trials_missing, "10", "4", "5"));
+  EXPECT_THAT(told({part("a", 1, 10)}), Tells(StudyProblem::trials_missing, "10", "0", "0"));
   TrialSetup other = of_trials(10);
   other.side_m = 2;
   EXPECT_THAT(told({part("a", 0, 4), part("b", 4, 10, other)}),
-              Tells("'a' was made with side_m 3.0 and 'b' with 2.0", Help::merge_one_study));
+              Tells(StudyProblem::of_two_studies, "a", "side_m", "3.0", "b", "2.0"));
   other = of_trials(10);
   other.e = 0.02;
   EXPECT_THAT(told({part("a", 0, 4, other), part("b", 4, 10)}),
-              Tells("'a' was made with e 0.02 and 'b' with 0.014285714285714285", Help::merge_one_study));
+              Tells(StudyProblem::of_two_studies, "a", "e", "0.02", "b", "0.014285714285714285"));
   other = of_trials(10);
   other.model = Model::simulator;
-  EXPECT_THAT(
-      told({part("a", 0, 4), part("b", 4, 10, other)}),
-      Tells("'a' was made with model \"kinematic\" and 'b' with \"simulator\"", Help::merge_one_study));
-  EXPECT_THAT(told({part("a", 0, 12)}),
-              Tells("'a' holds trial 10 of a study of 10; it is damaged", Help::run_shard_again));
+  EXPECT_THAT(told({part("a", 0, 4), part("b", 4, 10, other)}),
+              Tells(StudyProblem::of_two_studies, "a", "model", "\"kinematic\"", "b", "\"simulator\""));
+  EXPECT_THAT(told({part("a", 0, 12)}), Tells(StudyProblem::shard_damaged, "a", "10", "10"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
-#include "tests/host/calibration/end_poses/square_runs.hpp"
+#include "host/simulation/study/limits.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::simulation {
@@ -16,7 +16,9 @@ namespace {
 using calibration::MlEstimate;
 using calibration::Trajectory;
 using simulation::study::Drives;
+using simulation::study::SetupProblem;
 using simulation::study::TrialSetup;
+using support::Tells;
 
 TrialSetup small_setup() {
   TrialSetup setup;
@@ -128,27 +130,23 @@ TEST(SimulatedSource, RefusesWhatTheRobotCannotDriveOrRecord) {
   TrialSetup setup = small_setup();
   EXPECT_NO_THROW(SimulatedSource().check(setup));
   setup.count_rate_hz = 50;
-  EXPECT_THAT(refusal(setup), support::Tells("the simulated robot's counts are recorded at 100 Hz",
-                                             Help::keep_count_rate_or_use_kinematic));
+  EXPECT_THAT(refusal(setup), Tells(SetupProblem::count_rate_not_recorded));
   setup = small_setup();
   setup.side_m = 0.05;
   EXPECT_EQ(refusal(setup).sentence, "a square of side 0.05 m cannot be driven: 0.2 m to 100 m are possible");
   setup = small_setup();
   setup.windup_rad = 0.006;
-  EXPECT_EQ(
-      refusal(setup).sentence,
-      "the simulated robot's tyres do not wind up in spins: only the robot of the kinematic model does");
+  EXPECT_THAT(refusal(setup), Tells(SetupProblem::windup_not_simulated));
   setup = small_setup();
   setup.trials = 0;
-  EXPECT_EQ(refusal(setup).sentence, "the number of trials is 0: it has to be 1 to 10 million");
+  EXPECT_THAT(refusal(setup),
+              Tells(simulation::study::LimitProblem::out_of_range, "the number of trials", "0"));
   setup = small_setup();
   setup.model = simulation::study::Model::kinematic;
-  EXPECT_THAT(refusal(setup),
-              support::Tells("this is a study of the kinematic model, not of the simulator model",
-                             Help::use_own_robot));
+  EXPECT_THAT(refusal(setup), Tells(SetupProblem::of_other_model, "kinematic", "simulator"));
   setup = small_setup();
   setup.wheelbase_m = 3;
-  EXPECT_EQ(calibration::test::error_of([&] { SimulatedSource().of_trial(setup, 0); }),
+  EXPECT_EQ(support::told_by([&] { SimulatedSource().of_trial(setup, 0); }).sentence,
             "b = 3 m is out of range: 0.05 m to 2 m");
 }
 

@@ -61,7 +61,7 @@ TEST(Study, AnEmptyShardIsRefused) {
   EXPECT_THAT(support::told_by([] {
                 run_study(small_setup(3), kRobot, {1, 4}, 1, kSilent);
               }),
-              support::Tells("shard 1/4 of 3 trials is empty", Help::make_fewer_shards));
+              support::Tells(StudyProblem::shard_empty, "1", "4", "3"));
 }
 
 // `astrolabe study` checks the full claims over hundreds of trials of ten squares; here are enough trials to

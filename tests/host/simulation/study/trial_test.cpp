@@ -6,13 +6,15 @@
 #include <numbers>
 
 #include "host/simulation/study/kinematic_source.hpp"
+#include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
-#include "tests/host/calibration/end_poses/square_runs.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::simulation::study {
 namespace {
 
 using calibration::WheelFactors;
+using support::Tells;
 
 TEST(StudyErrors, OfTheTruthAreNone) {
   const TrialSetup setup;
@@ -44,35 +46,35 @@ TEST(StudyErrors, OfACommonScaleAloneAreALineThatEndsTooFar) {
 }
 
 TEST(StudySetup, RefusesWhatCannotBeDriven) {
-  const auto message = [](auto change) {
+  const auto told = [](auto change) {
     TrialSetup setup;
     change(setup);
-    return calibration::test::error_of([&] { setup.check(); });
+    return support::told_by([&] { setup.check(); });
   };
-  EXPECT_EQ(message([](TrialSetup& s) { s.side_m = 0; }),
+  EXPECT_EQ(told([](TrialSetup& s) { s.side_m = 0; }).sentence,
             "the side of the square in metres is 0, and has to be a positive number");
-  EXPECT_EQ(message([](TrialSetup& s) { s.trials = 0; }),
-            "the number of trials is 0: it has to be 1 to 10 million");
-  EXPECT_EQ(message([](TrialSetup& s) { s.noise.K_m = std::nan(""); }),
+  EXPECT_THAT(told([](TrialSetup& s) { s.trials = 0; }),
+              Tells(LimitProblem::out_of_range, "the number of trials", "0"));
+  EXPECT_EQ(told([](TrialSetup& s) { s.noise.K_m = std::nan(""); }).sentence,
             "the wheel slip K in metres is nan, and has to be a positive number");
-  EXPECT_EQ(message([](TrialSetup& s) {
-              s.side_m = 1000;
-              s.runs = 1000;
-            }),
-            "some 7411 hours of driving are more than fit into memory");
-  EXPECT_EQ(message([](TrialSetup& s) { s.circles = 1001; }),
-            "the number of circles in each direction is 1001: it has to be 0 to 1000");
-  EXPECT_EQ(message([](TrialSetup& s) { s.circle_radius_m = 0; }),
+  EXPECT_THAT(told([](TrialSetup& s) {
+                s.side_m = 1000;
+                s.runs = 1000;
+              }),
+              Tells(LimitProblem::exceeds_memory, "7411"));
+  EXPECT_THAT(told([](TrialSetup& s) { s.circles = 1001; }),
+              Tells(LimitProblem::out_of_range, "the number of circles in each direction", "1001"));
+  EXPECT_EQ(told([](TrialSetup& s) { s.circle_radius_m = 0; }).sentence,
             "the radius of the circles in metres is 0, and has to be a positive number");
-  EXPECT_EQ(message([](TrialSetup& s) { s.e = 0.3; }),
-            "the curvature effect e is 0.3: it has to be -0.2 to 0.2");
-  EXPECT_EQ(message([](TrialSetup& s) { s.windup_rad = -0.006; }),
-            "the wind-up in radians is -0.006: it has to be 0 to 0.1");
-  EXPECT_EQ(message([](TrialSetup& s) {
-              s.circles = 1000;
-              s.circle_radius_m = 1000;
-            }),
-            "some 23271 hours of driving are more than fit into memory");
+  EXPECT_THAT(told([](TrialSetup& s) { s.e = 0.3; }),
+              Tells(LimitProblem::out_of_range, "the curvature effect e", "0.3"));
+  EXPECT_THAT(told([](TrialSetup& s) { s.windup_rad = -0.006; }),
+              Tells(LimitProblem::out_of_range, "the wind-up in radians", "-0.006"));
+  EXPECT_THAT(told([](TrialSetup& s) {
+                s.circles = 1000;
+                s.circle_radius_m = 1000;
+              }),
+              Tells(LimitProblem::exceeds_memory, "23271"));
 }
 
 TEST(StudySetup, DrivesHalfOfTheSquaresEachWayAndNoTwoAlike) {

@@ -5,13 +5,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/truth/files/rows.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "tests/host/truth/files/own_recordings.hpp"
 #include "tests/host/truth/recorded_files.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::truth {
 namespace {
 
+using support::Tells;
+using support::ThrowsTelling;
 using test::kMotive;
 using test::shared_file;
 using test::text_of_file;
@@ -22,14 +26,15 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// Of an error as a sentence; "" if there is none.
-std::string refusal(const std::string& text, const std::string& body = "") {
-  try {
-    read_motive(text, "take.csv", body);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+Remark refusal_of_take(const std::string& text) {
+  return support::told_by([&] { read_motive(text, "take.csv"); });
+}
+
+/// Of something that is called: it does not know which body of take.csv is meant, and names all of them.
+auto RefusesBody(const std::string& wanted, const std::vector<BodyName>& bodies) {
+  return testing::Throws<UnknownBody>(
+      testing::AllOf(testing::Property(&Error::remark, Tells(BodyProblem::unknown, "take.csv", wanted)),
+                     testing::Property(&UnknownBody::bodies, bodies)));
 }
 
 double turn_about_y(const Pose3& p) { return 2 * std::atan2(p.qy, p.qw); }
@@ -97,43 +102,32 @@ TEST(MotiveCsv, HeadingRowsMayLackLabelsOrHaveAParentRow) {
 TEST(MotiveCsv, BodiesOfOneNameAreToldApartByTheirIds) {
   std::string two = replaced(kMotive, "Marker,Marker,Marker\r", "Rigid Body,Rigid Body,Rigid Body\r");
   two = replaced(two, "loose 1", "astro");
-  EXPECT_EQ(bodies_in_motive(two, "take.csv"), (std::vector<BodyName>{{"astro", "4CF0"}, {"astro", "5A"}}));
-  EXPECT_EQ(refusal(two, "astro"),
-            "'take.csv' holds several bodies of the name 'astro', but 'astro' (id 4CF0), 'astro' (id 5A)");
+  const std::vector<BodyName> both{{"astro", "4CF0"}, {"astro", "5A"}};
+  EXPECT_EQ(bodies_in_motive(two, "take.csv"), both);
+  EXPECT_THAT([&] { read_motive(two, "take.csv", "astro"); }, RefusesBody("astro", both));
   const BodyTrack loose = read_motive(two, "take.csv", "5A");
   EXPECT_DOUBLE_EQ(loose.samples[0].pose.y_m, 2e-3);
   EXPECT_EQ(loose.facts.rotation_kind, RotationKind::none);
 }
 
 TEST(MotiveCsv, ABodyThatIsNotThereGivesTheListAsData) {
-  try {
-    read_motive(kMotive, "take.csv", "asto");
-    FAIL();
-  } catch (const UnknownBody& error) {
-    EXPECT_STREQ(error.what(), "'take.csv' holds no body of the name 'asto', but 'astro'");
-    EXPECT_EQ(error.bodies(), (std::vector<BodyName>{{"astro", "4CF0"}}));
-    EXPECT_EQ(error.remedy().help, Help::name_body);
-  }
+  EXPECT_THAT([] { read_motive(kMotive, "take.csv", "asto"); }, RefusesBody("asto", {{"astro", "4CF0"}}));
 }
 
 TEST(MotiveCsv, ErrorsNameLineAndColumn) {
-  EXPECT_EQ(refusal(replaced(kMotive, "-200.2", "2oo")), "take.csv, line 9, column 9: '2oo' is not a number");
-  EXPECT_EQ(refusal(replaced(kMotive, "\r\n73,", "\r\nx,")),
-            "take.csv, line 9, column 1: 'x' is no frame number");
-  EXPECT_EQ(refusal(replaced(kMotive, "\r\n73,", "\r\n71,")), "take.csv, line 9: the time does not increase");
-  EXPECT_THAT(refusal(replaced(kMotive, "Millimeters", "Parsecs")),
-              testing::HasSubstr("'Parsecs' is not known"));
+  EXPECT_THAT(refusal_of_take(replaced(kMotive, "-200.2", "2oo")),
+              Tells(TrackProblem::not_a_number, "take.csv", "9", "9", "2oo"));
+  EXPECT_THAT(refusal_of_take(replaced(kMotive, "\r\n73,", "\r\nx,")),
+              Tells(TrackProblem::no_frame_number, "take.csv", "9", "1", "x"));
+  EXPECT_THAT(refusal_of_take(replaced(kMotive, "\r\n73,", "\r\n71,")),
+              Tells(TrackProblem::time_not_increasing, "take.csv", "9"));
+  EXPECT_THAT(refusal_of_take(replaced(kMotive, "Millimeters", "Parsecs")),
+              Tells(TrackProblem::length_unit_unknown, "take.csv", "7", "Parsecs"));
 }
 
 TEST(MotiveCsv, AHeaderThatIsMissingIsNamed) {
-  try {
-    read_track("0,0.000000,0.1,0.2,0.3,0.9,1,2,3\n1,0.008333,0.1,0.2,0.3,0.9,1,2,3\n", "bare.csv");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "'bare.csv' begins with numbers: without a header its columns have no meaning");
-    EXPECT_EQ(error.remedy().help, Help::export_with_header);
-  }
+  const std::string rows = "0,0.000000,0.1,0.2,0.3,0.9,1,2,3\n1,0.008333,0.1,0.2,0.3,0.9,1,2,3\n";
+  EXPECT_THAT([&] { read_track(rows, "bare.csv"); }, ThrowsTelling(TrackProblem::no_header, "bare.csv"));
 }
 
 TEST(MotiveCsv, AStartTimeOnATwelveHourClockIsUnsure) {
@@ -176,13 +170,8 @@ TEST(MotiveCsv, RealFilesWithoutRigidBodiesSayWhatToExport) {
   for (const char* name : {"v1.23_ha5_no_assets_mm_locale_ampm.csv", "v1.23_ha5_markers_only_mm.csv"}) {
     const std::string path = shared_file(std::string("samples/motive_csv/") + name);
     SKIP_WITHOUT(path);
-    try {
-      read_motive(text_of_file(path), name);
-      FAIL();
-    } catch (const Error& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("holds no rigid body with positions"));
-      EXPECT_EQ(error.remedy().help, Help::export_rigid_bodies);
-    }
+    EXPECT_THAT([&] { read_motive(text_of_file(path), name); },
+                ThrowsTelling(TrackProblem::no_rigid_body, name));
   }
 }
 
@@ -192,8 +181,7 @@ TEST(MotiveCsv, AFileThatASpreadsheetSavedHasTimesThatDisagree) {
   const BodyTrack track = read_motive(text_of_file(path), path);
   EXPECT_EQ(track.samples.size(), 2U);
   ASSERT_EQ(track.facts.remarks.size(), 1U);
-  EXPECT_EQ(track.facts.remarks[0].sentence,
-            "frame numbers and the column of times differ by up to 496 ms; the frame numbers are used");
+  EXPECT_THAT(track.facts.remarks[0], Tells(TrackRemark::times_disagree, "496"));
 }
 
 }  // namespace

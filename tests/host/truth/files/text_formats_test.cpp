@@ -12,21 +12,27 @@
 #include "host/truth/files/vicon_csv.hpp"
 #include "tests/host/truth/files/own_recordings.hpp"
 #include "tests/host/truth/recorded_files.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::truth {
 namespace {
 
 using namespace test;
+using support::Tells;
 
 double turn_about_z(const Pose3& p) { return 2 * std::atan2(p.qz, p.qw); }
 
-std::string sentence_of(const std::string& text, const std::string& body = "") {
-  try {
-    read_track(text, "file", body);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+Remark refusal(const std::string& text, const std::string& body = "") {
+  return support::told_by([&] { read_track(text, "file", body); });
+}
+
+/// Of something that is called: no body is named, and the file holds these.
+template <class... Names>
+auto HoldsSeveralBodies(const Names&... names) {
+  const auto named = [](const auto& name) { return testing::Field(&BodyName::name, name); };
+  return testing::Throws<UnknownBody>(
+      testing::AllOf(testing::Property(&Error::remark, Tells(BodyProblem::unknown, "file", "")),
+                     testing::Property(&UnknownBody::bodies, testing::ElementsAre(named(names)...))));
 }
 
 TEST(ViconCsv, RotationVectorsRunOnBeyondHalfATurn) {
@@ -50,7 +56,7 @@ TEST(ViconCsv, EachBodyHasItsOwnUnits) {
   const BodyTrack wand = read_vicon(kVicon, "v.csv", "wand");
   EXPECT_NEAR(turn_about_z(wand.samples[1].pose), 20 * std::numbers::pi / 180, 1e-12);
   EXPECT_FALSE(wand.samples[3].valid);  // the row ends before
-  EXPECT_EQ(sentence_of(kVicon), "'file' holds several bodies: 'astro', 'wand'");
+  EXPECT_THAT([] { read_track(kVicon, "file"); }, HoldsSeveralBodies("astro", "wand"));
 }
 
 TEST(ViconCsv, AnglesWhoseVectorsWouldTiltAreEulerAngles) {
@@ -88,10 +94,10 @@ TEST(ViconCsv, AQuaternionHasFourColumnsWithoutUnits) {
 TEST(ViconCsv, ErrorsNameLineAndColumn) {
   std::string bad = kVicon;
   bad.replace(bad.find("1001"), 4, "10x1");
-  EXPECT_EQ(sentence_of(bad, "astro"), "file, line 7, column 6: '10x1' is not a number");
+  EXPECT_THAT(refusal(bad, "astro"), Tells(TrackProblem::not_a_number, "file", "7", "6", "10x1"));
   bad = kVicon;
   bad.replace(bad.find("rad,rad,rad"), 11, "rad,rad,gon");
-  EXPECT_EQ(sentence_of(bad, "astro"), "file, line 5, column 5: 'gon' is no unit of angle");
+  EXPECT_THAT(refusal(bad, "astro"), Tells(TrackProblem::angle_unit_unknown, "file", "5", "5", "gon"));
 }
 
 TEST(ViconCsv, ReadsTheRealStadiumRun) {
@@ -131,9 +137,9 @@ TEST(Tum, EurocHasNanosecondsAndTheScalarFirst) {
 TEST(Tum, RepeatedTimesAreLeftOutAndSaid) {
   const BodyTrack track = read_track("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n", "t.txt");
   EXPECT_EQ(track.samples.size(), 2U);
-  EXPECT_EQ(track.facts.remarks.at(0).sentence,
-            "rows left out because they have the time of the row before: 1");
-  EXPECT_EQ(sentence_of("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), "file, line 2: the time does not increase");
+  EXPECT_THAT(track.facts.remarks.at(0), Tells(TrackRemark::times_repeated, "1"));
+  EXPECT_THAT(refusal("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),
+              Tells(TrackProblem::time_not_increasing, "file", "2"));
 }
 
 TEST(Tum, ReadsTheBenchmarksFile) {
@@ -164,8 +170,8 @@ TEST(PlainCsv, NamesOfOtherProgramsAreUnderstood) {
       "p.csv");
   EXPECT_EQ(plot.facts.rotation_kind, RotationKind::quaternion);
   EXPECT_EQ(plot.samples.at(0).pose, (Pose3{1, 2, 3, 0, 0, 1, 0}));
-  ASSERT_EQ(plot.facts.remarks.size(), 2U);
-  EXPECT_EQ(plot.facts.remarks[0].sentence, "the unit of length is not stated: metres are assumed");
+  EXPECT_THAT(plot.facts.remarks, testing::ElementsAre(Tells(TrackRemark::length_unit_assumed),
+                                                       Tells(TrackRemark::time_unit_assumed, "s")));
   const BodyTrack german = read_track("stamp;x (cm);y (cm)\n1700000000123456789;1,5;2\n", "p.csv");
   EXPECT_EQ(german.samples.at(0).time_ns, 1'700'000'000'123'456'789);
   EXPECT_DOUBLE_EQ(german.samples[0].pose.x_m, 0.015);
@@ -178,7 +184,7 @@ TEST(PlainCsv, SeveralBodiesAreToldApartByWhatTheirNamesBeginWith) {
       "/mocap/stamp\n"
       "1,10,20,30,40,50,7\n";
   EXPECT_EQ(bodies_in(text, "p.csv"), (std::vector<BodyName>{{"/odom", ""}, {"/mocap", ""}}));
-  EXPECT_EQ(sentence_of(text), "'file' holds several bodies: '/odom', '/mocap'");
+  EXPECT_THAT([&] { read_track(text, "file"); }, HoldsSeveralBodies("/odom", "/mocap"));
   EXPECT_EQ(read_track(text, "p.csv", "/odom").samples.at(0).pose.x_m, 10);
   EXPECT_EQ(read_track(text, "p.csv", "/odom").samples.at(0).time_ns, 1'000'000'000);
   EXPECT_EQ(read_track(text, "p.csv", "/mocap").samples.at(0).pose.y_m, 40);
@@ -198,11 +204,11 @@ TEST(ViconCsv, ASpreadsheetMayHaveSavedItAgain) {
 }
 
 TEST(PlainCsv, UnitsThatDoNotFitAreRefused) {
-  EXPECT_EQ(sentence_of("time_s,x_deg,y_m\n"),
-            "file, line 1, column 2: the unit 'deg' does not fit the column");
-  EXPECT_EQ(sentence_of("time_s,x_m,y_mm\n"),
-            "file, line 1, column 3: the positions have different units, 'm' and 'mm'");
-  EXPECT_EQ(sentence_of("time_s,x_m,y_m\n1,2,3\nsoon,2,3\n"), "file, line 3, column 1: 'soon' is no time");
+  EXPECT_THAT(refusal("time_s,x_deg,y_m\n"),
+              Tells(TrackProblem::unit_of_other_quantity, "file", "1", "2", "deg"));
+  EXPECT_THAT(refusal("time_s,x_m,y_mm\n"), Tells(TrackProblem::units_differ, "file", "1", "3", "m", "mm"));
+  EXPECT_THAT(refusal("time_s,x_m,y_m\n1,2,3\nsoon,2,3\n"),
+              Tells(TrackProblem::no_time, "file", "3", "1", "soon"));
 }
 
 TEST(TrackerFile, RecognisesEachFormatByItsContent) {

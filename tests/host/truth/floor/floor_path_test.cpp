@@ -8,9 +8,12 @@
 
 #include "host/base/error.hpp"
 #include "host/truth/files/rotations.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::truth {
 namespace {
+
+using support::ThrowsTelling;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -120,16 +123,9 @@ TEST(FloorPath, PositionsAndOrientationsOfDifferentFramesAreRefused) {
   BodyTrack mixed = rotated(drive.track, from_euler("X", {-kPi / 2, 0, 0}));
   for (std::size_t i = 0; i < mixed.samples.size(); ++i)
     set_rotation(mixed.samples[i].pose, rotation_of(drive.track.samples[i].pose));
-  try {
-    place_on_floor(mixed, drive.wheels);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "'astro': positions and orientations are in different frames: the positions lie in a plane with the "
-        "normal (0.00, 1.00, 0.00), the body turns about (0.00, 0.00, 1.00), 90 degrees apart");
-    EXPECT_EQ(error.remedy().help, Help::export_in_one_frame);
-  }
+  EXPECT_THAT(
+      [&] { place_on_floor(mixed, drive.wheels); },
+      ThrowsTelling(FloorProblem::frames_differ, "astro", "(0.00, 1.00, 0.00)", "(0.00, 0.00, 1.00)", "90"));
 }
 
 TEST(FloorPath, AMissingUnitOfLengthIsInferredFromTheWheels) {
@@ -148,7 +144,7 @@ TEST(FloorPath, AMissingUnitOfLengthIsInferredFromTheWheels) {
   const FloorPath stated = place_on_floor(drive.track, drive.wheels);
   EXPECT_EQ(stated.findings.unit_ratio, 1000);
   EXPECT_EQ(stated.findings.length_factor, 1) << "stated by the file, so it is only reported";
-  EXPECT_EQ(stated.findings.remarks.at(0).remedy.help, Help::check_units);
+  EXPECT_THAT(stated.findings.remarks.at(0), support::Tells(FloorRemark::units_differ, testing::_));
   ASSERT_TRUE(stated.findings.clock.has_value());
   EXPECT_NEAR(stated.findings.clock->offset_s, 3, 0.02);
 }
@@ -179,7 +175,7 @@ TEST(FloorPath, PositionsAloneGiveNoHeadings) {
 TEST(FloorPath, AStraightDriveWithoutATurnShowsNoUpAxis) {
   Drive drive = s_drive();
   drive.track.samples.resize(150);  // at rest
-  EXPECT_THROW(place_on_floor(drive.track), Error);
+  EXPECT_THAT([&] { place_on_floor(drive.track); }, ThrowsTelling(FloorProblem::no_up_axis, "astro"));
 }
 
 TEST(FloorPath, InvalidSamplesStayInvalidAndNothingIsInterpolated) {

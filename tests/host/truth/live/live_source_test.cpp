@@ -9,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "tests/support/base/bounded.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::truth {
 namespace {
@@ -16,6 +17,9 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using support::Tells;
+using support::ThrowsTelling;
+using support::told_by;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -79,16 +83,6 @@ std::unique_ptr<LiveSource> open(Lab& lab, std::string_view url = "vrpn://lab/AS
                                       [&] { return lab.now; });
 }
 
-template <class Work>
-std::string complaint(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(LiveSource, GivesEachPoseOnceAtTheTimeOfItsExposure) {
   Lab lab;
   const auto source = open(lab);
@@ -121,7 +115,7 @@ TEST(LiveSource, WithoutPosesItSaysWhyWithinSixSeconds) {
   Lab lab;
   lab.sends = false;
   const microseconds begin = lab.now;
-  EXPECT_EQ(complaint([&] { open(lab); }), "no ground truth comes from lab: it sleeps");
+  EXPECT_THAT([&] { open(lab); }, ThrowsTelling(LiveProblem::tracker_silent, "lab", "it sleeps"));
   EXPECT_LE(lab.now - begin, milliseconds(6'100));
 }
 
@@ -136,8 +130,7 @@ TEST(LiveSource, RefusesMorePosesPerSecondThanAnyTrackerMeasures) {
       came += source->poll().size();
     }
   };
-  EXPECT_EQ(complaint(drive),
-            "more than 10000 poses per second come from lab, and no tracker measures so fast");
+  EXPECT_THAT(drive, ThrowsTelling(LiveProblem::too_many_poses, "lab", "10000"));
   EXPECT_LE(came, 120'000U);
 }
 
@@ -146,7 +139,7 @@ TEST(LiveSource, TakesWhatCameWhileTheProgramWasStopped) {
   const auto source = open(lab);
   lab.period = milliseconds(1);
   lab.pass(seconds(60));
-  EXPECT_EQ(complaint([&] { EXPECT_GE(source->poll().size(), 60'000U); }), "");
+  EXPECT_GE(source->poll().size(), 60'000U);
 }
 
 TEST(LiveSource, WaitsInBoundedMemoryForABodyThatIsNotSeen) {
@@ -155,7 +148,7 @@ TEST(LiveSource, WaitsInBoundedMemoryForABodyThatIsNotSeen) {
     const auto source = open(lab);
     lab.period = microseconds(10);
     lab.seen = false;
-    EXPECT_THAT(complaint([&] { source->begin_run(); }), HasSubstr("is not seen"));
+    EXPECT_THAT([&] { source->begin_run(); }, ThrowsTelling(LiveProblem::body_unseen, "lab", "ASTRO"));
   });
   EXPECT_TRUE(taken.ended);
   if (support::kMeasuresMemory) {
@@ -166,9 +159,9 @@ TEST(LiveSource, WaitsInBoundedMemoryForABodyThatIsNotSeen) {
 TEST(LiveSource, OfSeveralBodiesOneHasToBeNamed) {
   Lab lab;
   lab.bodies = {"ASTRO", "TABLE"};
-  EXPECT_EQ(complaint([&] { open(lab, "vrpn://lab"); }),
-            "lab tracks several bodies, and none was named: 'ASTRO', 'TABLE'");
-  EXPECT_EQ(complaint([&] { open(lab, "vrpn://lab/ASTRO"); }), "");
+  EXPECT_THAT([&] { open(lab, "vrpn://lab"); },
+              ThrowsTelling(LiveProblem::several_bodies, "lab", "ASTRO", "TABLE"));
+  EXPECT_NO_THROW(open(lab, "vrpn://lab/ASTRO"));
 }
 
 TEST(LiveSource, AShortSilenceIsAGapAndALongOneAnError) {
@@ -186,11 +179,10 @@ TEST(LiveSource, AShortSilenceIsAGapAndALongOneAnError) {
   lab.sends = true;
   EXPECT_GT(listen(milliseconds(200)), 10U);
   lab.sends = false;
-  EXPECT_EQ(complaint([&] { listen(milliseconds(11'000)); }),
-            "no ground truth has come from lab for 10 s: it sleeps");
+  const auto wait = [&] { listen(milliseconds(11'000)); };
+  EXPECT_THAT(wait, ThrowsTelling(LiveProblem::tracker_silent, "lab", "it sleeps", "10"));
   lab.why = "";  // as a link says that has passed on poses
-  EXPECT_EQ(complaint([&] { listen(milliseconds(11'000)); }),
-            "no ground truth has come from lab for 10 s: no more poses of 'ASTRO' are sent");
+  EXPECT_THAT(wait, ThrowsTelling(LiveProblem::poses_ended, "lab", "ASTRO", "10"));
 }
 
 TEST(LiveSource, ARunBeginsOnceTheBodyIsSeenNowAndWithoutTheSamplesFromBefore) {
@@ -212,21 +204,20 @@ TEST(LiveSource, NoRunBeginsWhileNoTruthComes) {
   const auto source = open(lab);
   const auto refusal = [&] {
     const microseconds begin = lab.now;
-    const std::string why = complaint([&] { source->begin_run(); });
+    const Remark why = told_by([&] { source->begin_run(); });
     EXPECT_LE(lab.now - begin, milliseconds(7'000));
     return why;
   };
   lab.pass(seconds(2));  // these poses are not from now
   lab.sends = false;
-  EXPECT_EQ(refusal(), "no ground truth comes from lab: it sleeps");
+  EXPECT_THAT(refusal(), Tells(LiveProblem::tracker_silent, "lab", "it sleeps"));
   lab.why = "";  // as of a link that has had poses
-  EXPECT_EQ(refusal(), "no ground truth comes from lab: no more poses of 'ASTRO' are sent");
+  EXPECT_THAT(refusal(), Tells(LiveProblem::poses_ended, "lab", "ASTRO"));
   lab.sends = true;
   lab.seen = false;
-  EXPECT_EQ(refusal(),
-            "no ground truth comes from lab: 'ASTRO' is not seen, or has the same pose again and again");
+  EXPECT_THAT(refusal(), Tells(LiveProblem::body_unseen, "lab", "ASTRO"));
   lab.seen = true;
-  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(refusal().sentence, "");
 }
 
 /// The samples of so long, polled as a drive polls.
@@ -334,9 +325,9 @@ TEST(LiveSource, TheUpAxisIsThatOfTheAddress) {
   EXPECT_EQ(open(lab, "vrpn://lab/ASTRO?up=y")->poll().front().y_m, -0.2);
 }
 
-/// What the source says while the body moves for so many seconds.
-std::string said_in(Lab& lab, LiveSource& source, double span_s) {
-  return complaint([&] {
+/// What the source tells while the body moves for so many seconds.
+Remark told_in(Lab& lab, LiveSource& source, double span_s) {
+  return told_by([&] {
     for (const microseconds end = lab.now + microseconds(std::llround(1e6 * span_s)); lab.now < end;) {
       lab.pass(milliseconds(50));
       source.poll();
@@ -350,9 +341,9 @@ TEST(LiveSource, ADriveUpTheAxisThatIsTakenForUpEndsAtOnce) {
     const auto source = open(lab, "vrpn://lab/ASTRO?up=" + up);
     source->poll();
     (up == "z" ? lab.rise_mps : lab.across_mps) = -0.3;
-    EXPECT_EQ(said_in(lab, *source, 0.9), "");
-    EXPECT_THAT(said_in(lab, *source, 1),
-                HasSubstr("along the tracker's " + up + " axis, which is taken for up"));
+    EXPECT_EQ(told_in(lab, *source, 0.9).sentence, "");
+    EXPECT_THAT(told_in(lab, *source, 1),
+                Tells(UpAxisProblem::contradicted, up, up == "z" ? "y" : "z", testing::StartsWith("-0.")));
   }
 }
 
@@ -361,14 +352,14 @@ TEST(LiveSource, ARobotThatClimbsARampOrIsCarriedBetweenDrivesMayRise) {
   const auto source = open(lab);
   lab.rise_mps = 0.1;
   lab.across_mps = 0.3;
-  EXPECT_EQ(said_in(lab, *source, 10), "") << "a ramp";
+  EXPECT_EQ(told_in(lab, *source, 10).sentence, "") << "a ramp";
   lab.across_mps = 0;
   lab.rise_mps = 0.5;
-  EXPECT_EQ(said_in(lab, *source, 3), "") << "picked up after a drive";
+  EXPECT_EQ(told_in(lab, *source, 3).sentence, "") << "picked up after a drive";
   lab.pass(seconds(3));  // nobody polls
   lab.rise_mps = 0;
   source->begin_run();
-  EXPECT_EQ(said_in(lab, *source, 10), "") << "put down elsewhere";
+  EXPECT_EQ(told_in(lab, *source, 10).sentence, "") << "put down elsewhere";
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace astro::truth {
 namespace {
 
-using testing::HasSubstr;
+using support::Tells;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -53,13 +53,8 @@ class Cameras {
 
 constexpr const char* kGreeting = "astrolabe-mocap 1\n";
 
-std::string failure_of(SocketSource& source) {
-  try {
-    source.poll();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+Remark failure_of(SocketSource& source) {
+  return support::told_by([&] { source.poll(); });
 }
 
 class Socket : public testing::Test {
@@ -102,34 +97,30 @@ TEST_F(Socket, SaysThatALineIsNoPose) {
     SocketSource damaged(others.path());
     others.send(kGreeting);
     others.send(std::string(bad) + "\n");
-    EXPECT_THAT(failure_of(damaged), HasSubstr("no pose")) << bad;
+    EXPECT_THAT(failure_of(damaged), Tells(SocketProblem::no_pose, others.path().string())) << bad;
   }
 }
 
 TEST_F(Socket, DoesNotTakeAnotherProgramForASimulator) {
   cameras.send("HTTP/1.1 400 Bad Request\r\n");
-  EXPECT_THAT(failure_of(source), HasSubstr("is not this version's simulator"));
+  EXPECT_THAT(failure_of(source), Tells(SocketProblem::of_other_version, cameras.path().string()));
 }
 
 TEST_F(Socket, DoesNotTakeAnotherVersionForThisOne) {
   cameras.send("astrolabe-mocap 2\n");
-  EXPECT_THAT(failure_of(source), HasSubstr("is not this version's simulator"));
+  EXPECT_THAT(failure_of(source), Tells(SocketProblem::of_other_version, cameras.path().string()));
 }
 
 TEST_F(Socket, SaysThatTheCamerasHaveGone) {
   cameras.send(kGreeting);
   EXPECT_THAT(source.poll(), IsEmpty());
   cameras.hang_up();
-  EXPECT_THAT(failure_of(source), HasSubstr("have disconnected"));
+  EXPECT_THAT(failure_of(source), Tells(SocketProblem::disconnected, cameras.path().string()));
 }
 
 TEST(NoSocket, SaysThatASimulatorIsNeeded) {
-  try {
-    SocketSource source("/no/such.mocap");
-    FAIL() << "there is nothing to connect to";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.remedy().help, Help::use_simulated_robot);
-  }
+  EXPECT_THAT([] { SocketSource{"/no/such.mocap"}; },
+              support::ThrowsTelling(SocketProblem::not_served, "/no/such.mocap"));
 }
 
 TEST(MocapSocket, IsBesideThePtyAlsoWhenThePortIsALinkToIt) {
@@ -157,12 +148,8 @@ TEST(SocketSource, ALineWithoutAnEndIsNotWaitedFor) {
   Cameras cameras;
   SocketSource source(cameras.path());
   cameras.send("astrolabe-mocap 1\n" + std::string(2000, '1'));
-  try {
-    source.poll();
-    FAIL() << "a line of 2000 bytes without an end was kept";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("sent a line that is no pose"));
-  }
+  EXPECT_THAT(failure_of(source), Tells(SocketProblem::no_pose, cameras.path().string()))
+      << "a line of 2000 bytes without an end was kept";
 }
 
 }  // namespace

@@ -11,12 +11,13 @@
 #include "host/truth/trackers/vrpn_reader.hpp"
 #include "host/truth/trackers/vrpn_tracker.hpp"
 #include "tests/support/base/places.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::truth::vrpn {
 namespace {
 
+using support::Tells;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr std::int32_t kAstro = 2, kPose = 8;
@@ -44,7 +45,10 @@ struct Kept {
 struct Outcome {
   std::vector<Kept> messages;
   std::string complaint;
+  Kind kind;
+  std::vector<std::string> values;
   bool operator==(const Outcome&) const = default;
+  Remark told() const { return {complaint, kind, values}; }
 };
 
 /// Everything that a stream gives if it arrives in pieces of at most `piece` bytes.
@@ -62,17 +66,14 @@ Outcome read(ByteView bytes, std::size_t piece) {
     }
   } catch (const Error& error) {
     outcome.complaint = error.what();
+    outcome.kind = error.kind();
+    outcome.values = error.values();
   }
   return outcome;
 }
 
-std::string complaint_about_datagram(ByteView bytes) {
-  try {
-    messages_in(bytes);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+Remark told_about_datagram(ByteView bytes) {
+  return support::told_by([&] { messages_in(bytes); });
 }
 
 // ---- bytes
@@ -155,8 +156,8 @@ TEST(VrpnStreamReader, CutAtEveryByteItGivesAPrefix) {
 }
 
 TEST(VrpnStreamReader, RefusesAnotherProgramByItsFirstBytes) {
-  EXPECT_THAT(read(as_bytes("SSH-2.0-OpenSSH"), 1).complaint, HasSubstr("not those of a VRPN server"));
-  EXPECT_THAT(read(as_bytes("vrpn: ver. 06.11  0\0\0\0\0\0\0"), 1).complaint, HasSubstr("version 07"));
+  for (const char* bytes : {"SSH-2.0-OpenSSH", "vrpn: ver. 06.11  0"})
+    EXPECT_THAT(read(as_bytes(bytes), 1).told(), Tells(VrpnProblem::other_program)) << bytes;
 }
 
 TEST(VrpnStreamReader, RefusesALengthThatNoMessageHasAndNamesTheByte) {
@@ -169,8 +170,8 @@ TEST(VrpnStreamReader, RefusesALengthThatNoMessageHasAndNamesTheByte) {
       bytes[at + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(length >> (24 - 8 * i));
     const Outcome outcome = read(bytes, 7);
     EXPECT_EQ(outcome.messages.size(), 1U);
-    EXPECT_EQ(outcome.complaint, "byte " + std::to_string(at) + " begins a message of " +
-                                     std::to_string(length) + " bytes, and messages have 24 to 64000");
+    EXPECT_THAT(outcome.told(),
+                Tells(VrpnProblem::impossible_length, std::to_string(length), std::to_string(at)));
   }
 }
 
@@ -221,12 +222,11 @@ TEST(VrpnDatagram, ThatIsCutIsRefusedExceptBetweenMessagesAndInPadding) {
   const ByteView whole = ByteView(stream).subspan(kCookieBytes);
   int taken = 0;
   for (std::size_t size = 0; size < whole.size(); ++size)
-    taken += complaint_about_datagram(whole.first(size)).empty() ? 1 : 0;
+    taken += told_about_datagram(whole.first(size)).sentence.empty() ? 1 : 0;
   // No byte; after each of the 5 first messages; and within the padding of the 3 descriptions: 7, 6 and 6 bytes.
   EXPECT_EQ(taken, 1 + 5 + 7 + 6 + 6);
-  EXPECT_EQ(complaint_about_datagram(whole.first(20)), "the last 20 bytes of a datagram are no message");
-  EXPECT_EQ(complaint_about_datagram(whole.first(30)),
-            "a message of 41 bytes in a datagram that ends after 30");
+  EXPECT_THAT(told_about_datagram(whole.first(20)), Tells(VrpnProblem::no_header, "20"));
+  EXPECT_THAT(told_about_datagram(whole.first(30)), Tells(VrpnProblem::cut_off, "41", "30"));
 }
 
 // ---- names
