@@ -101,7 +101,7 @@ set(ASTRO_OUTSIDE
   "zlib.h                   : host/formats/files host/truth/files"
 
   # The operating system.
-  "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/film/picture host/recording host/robot/port host/robot/sharing host/simulation/server host/truth/live"
+  "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording host/robot/port host/robot/sharing host/simulation/server host/truth/live"
   "arpa/ netinet/ netdb.h   : host/base"
   "csignal                  : host/console"
   "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/recording host/robot host/simulation host/truth host/wall"

@@ -28,17 +28,13 @@ std::string cannot_read(const std::filesystem::path& path) { return "cannot read
 FileSource::FileSource(std::filesystem::path path) : path_(std::move(path)) {
   require_file(path_);
   // O_NONBLOCK: opening a pipe that nobody writes to must not wait.
-  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor_ < 0) fail(path_, errno);
+  descriptor_.reset(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!descriptor_) fail(path_, errno);
   struct stat status {};
-  if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
-    ::close(descriptor_);
+  if (::fstat(descriptor_.get(), &status) != 0 || !S_ISREG(status.st_mode))
     throw Error(cannot_read(path_) + ": it is not a regular file: check the path");
-  }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
-
-FileSource::~FileSource() { ::close(descriptor_); }
 
 ByteView FileSource::read(std::uint64_t offset, std::size_t count) {
   if (offset < window_start_ || offset + count > window_start_ + window_.size()) {
@@ -46,7 +42,7 @@ ByteView FileSource::read(std::uint64_t offset, std::size_t count) {
     window_.resize(static_cast<std::size_t>(std::min(most, size_ - offset)));
     window_start_ = offset;
     for (std::size_t done = 0; done < window_.size();) {
-      const ssize_t got = ::pread(descriptor_, window_.data() + done, window_.size() - done,
+      const ssize_t got = ::pread(descriptor_.get(), window_.data() + done, window_.size() - done,
                                   static_cast<off_t>(offset + done));
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "host/base/bytes.hpp"
+#include "host/base/descriptor.hpp"
 
 namespace astro {
 
@@ -37,16 +38,13 @@ class MemorySource : public ByteSource {
 class FileSource : public ByteSource {
  public:
   explicit FileSource(std::filesystem::path path);
-  ~FileSource() override;
-  FileSource(const FileSource&) = delete;
-  FileSource& operator=(const FileSource&) = delete;
 
   std::uint64_t size() const override { return size_; }
   ByteView read(std::uint64_t offset, std::size_t count) override;
 
  private:
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   std::uint64_t size_ = 0;
   std::uint64_t window_start_ = 0;
   Bytes window_;

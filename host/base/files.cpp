@@ -40,10 +40,8 @@ Error too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_b
 /// Syncs the folder, so that the new name survives a power cut, too. Some file systems cannot do that; the
 /// failure is ignored.
 void sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
+  const Descriptor opened(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened) ::fsync(opened.get());
 }
 
 /// The whole file, of which `judge` sees each block, and what was read before it, before it is added.
@@ -136,7 +134,7 @@ PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), p
   open_part();
   if (!is_kept()) return;
   ::unlink(part_.c_str());  // another program has made it before this one held the lock
-  give_up(kept);
+  throw Error(kept);
 }
 
 /// Does not follow a link: a person who may write into the folder must not choose which file is emptied. The
@@ -144,49 +142,40 @@ PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), p
 void PartFile::open_part() {
   constexpr int kTries = 100;
   for (int tries = 1;; ++tries) {
-    descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) fail("create");
+    descriptor_.reset(::open(part_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
+    if (!descriptor_) fail("create");
     struct stat opened {
     }, named{};
-    if (::fstat(descriptor_, &opened) == 0 && !S_ISREG(opened.st_mode))
-      give_up(
-          {part_.string() + " is no file, so nothing can be recorded there: remove it or name another file"});
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      give_up({part_.string() + " is being written by another program: wait for it or name another file"});
+    if (::fstat(descriptor_.get(), &opened) == 0 && !S_ISREG(opened.st_mode))
+      throw Error(part_.string() +
+                  " is no file, so nothing can be recorded there: remove it or name another file");
+    if (::flock(descriptor_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw Error(part_.string() + " is being written by another program: wait for it or name another file");
     // Another program may have given the file its name between open and flock: it is no longer ours to empty.
     if (::lstat(part_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
       break;
-    if (tries == kTries) give_up({part_.string() + " changes again and again: choose another folder"});
-    ::close(descriptor_);
+    if (tries == kTries) throw Error(part_.string() + " changes again and again: choose another folder");
+    descriptor_.reset();
   }
-  if (::ftruncate(descriptor_, 0) != 0) give_up(why_not("empty"));
-}
-
-void PartFile::give_up(const Remark& why) {
-  ::close(std::exchange(descriptor_, -1));
-  throw Error(why);
+  if (::ftruncate(descriptor_.get(), 0) != 0) fail("empty");
 }
 
 PartFile::~PartFile() {
-  if (descriptor_ < 0) return;
-  if (empty_) ::unlink(part_.c_str());  // while it is locked: afterwards the name may be another program's
-  ::close(descriptor_);
+  // While it is locked: afterwards the name may be another program's.
+  if (descriptor_ && empty_) ::unlink(part_.c_str());
 }
 
-Remark PartFile::why_not(const std::string& what) const {
+void PartFile::fail(const std::string& what) const {
   if (errno == ELOOP)
-    return {part_.string() +
-            " is a link, and nothing is written through one: remove it or name another file"};
-  const Error why = system_error("cannot " + what + " " + part_.string(), errno,
-                                 "; check the disk or choose another folder");
-  return why.remark();
+    throw Error(part_.string() +
+                " is a link, and nothing is written through one: remove it or name another file");
+  throw system_error("cannot " + what + " " + part_.string(), errno,
+                     "; check the disk or choose another folder");
 }
-
-void PartFile::fail(const std::string& what) const { throw Error(why_not(what)); }
 
 void PartFile::write(ByteView bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    const ssize_t written = ::write(descriptor_.get(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("write");
     empty_ = false;
@@ -195,12 +184,12 @@ void PartFile::write(ByteView bytes) {
 }
 
 void PartFile::commit() {
-  if (::fsync(descriptor_) != 0) fail("bring to the disk");
+  if (::fsync(descriptor_.get()) != 0) fail("bring to the disk");
   std::error_code error;
   fs::rename(part_, path_, error);
   if (error)
     throw Error("cannot rename " + part_.string() + " to " + path_.string() + ": " + error.message());
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail("close");
+  if (::close(descriptor_.release()) != 0) fail("close");
   sync_folder(path_.parent_path());
 }
 

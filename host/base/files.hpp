@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/base/bytes.hpp"
+#include "host/base/descriptor.hpp"
 #include "host/base/error.hpp"
 
 namespace astro {
@@ -57,12 +58,10 @@ class PartFile {
 
  private:
   void open_part();
-  Remark why_not(const std::string& what) const;  // by errno
-  [[noreturn]] void fail(const std::string& what) const;
-  [[noreturn]] void give_up(const Remark& why);
+  [[noreturn]] void fail(const std::string& what) const;  // by errno
 
   std::filesystem::path path_, part_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   bool empty_ = true;
 };
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "host/base/descriptor.hpp"
+
 namespace astro {
 
 /// Locks a folder for this program for as long as the object lives; nothing is left behind, however the
@@ -11,12 +13,9 @@ namespace astro {
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int descriptor_ = -1;
+  Descriptor descriptor_;
 };
 
 }  // namespace astro

@@ -6,13 +6,11 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
-#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/base/system_error.hpp"
@@ -26,7 +24,7 @@ timespec limit_of(microseconds timeout) {
 }
 
 bool poll_for(const Socket& socket, short events, microseconds timeout) {
-  pollfd ready{socket.descriptor(), events, 0};
+  pollfd ready{socket.get(), events, 0};
   const timespec limit = limit_of(timeout);
   return ::ppoll(&ready, 1, &limit, nullptr) > 0;
 }
@@ -36,8 +34,7 @@ Socket open_socket(int family, int type) {
   // Whatever is at the other end, it does not help to try again, or elsewhere.
   if (!socket && (errno == EMFILE || errno == ENFILE)) throw system_error("no socket can be opened", errno);
   const int kept_bytes = 1 << 20;  // of datagrams that come while nobody reads
-  if (type == SOCK_DGRAM)
-    ::setsockopt(socket.descriptor(), SOL_SOCKET, SO_RCVBUF, &kept_bytes, sizeof kept_bytes);
+  if (type == SOCK_DGRAM) ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &kept_bytes, sizeof kept_bytes);
   return socket;
 }
 
@@ -45,7 +42,7 @@ Socket open_socket(int family, int type) {
 /// after some ten seconds the connection has ended.
 void set_up(const Socket& socket) {
   const auto set = [&](int level, int option, int value) {
-    ::setsockopt(socket.descriptor(), level, option, &value, sizeof value);
+    ::setsockopt(socket.get(), level, option, &value, sizeof value);
   };
   set(IPPROTO_TCP, TCP_NODELAY, 1);
   set(SOL_SOCKET, SO_KEEPALIVE, 1);
@@ -74,8 +71,8 @@ Socket open_bound(const Address& local, int type) {
   Socket socket = open_socket(local.storage.ss_family, type);
   const int reuse = 1;  // a port of a program that has just ended
   if (socket && type == SOCK_STREAM)
-    ::setsockopt(socket.descriptor(), SOL_SOCKET, SO_REUSEADDR, &reuse, sizeof reuse);
-  if (!socket || ::bind(socket.descriptor(), local.get(), local.size) != 0) fail_bound(local);
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &reuse, sizeof reuse);
+  if (!socket || ::bind(socket.get(), local.get(), local.size) != 0) fail_bound(local);
   return socket;
 }
 
@@ -90,17 +87,6 @@ Address ip4(in_addr_t host, std::uint16_t port) {
 }
 
 }  // namespace
-
-Socket::Socket(Socket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-Socket& Socket::operator=(Socket&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
-
-Socket::~Socket() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
 
 bool is_address(const std::string& text) {
   in6_addr bytes{};  // room for either
@@ -130,7 +116,7 @@ Address Address::everywhere(std::uint16_t port) { return ip4(INADDR_ANY, port); 
 
 Address Address::local(const Socket& socket) {
   Address address;
-  ::getsockname(socket.descriptor(), address.get(), &address.size);
+  ::getsockname(socket.get(), address.get(), &address.size);
   return address;
 }
 
@@ -154,12 +140,12 @@ Socket begin_tcp(const Address& to) {
   Socket socket = open_socket(to.storage.ss_family, SOCK_STREAM);
   if (!socket) return {};
   set_up(socket);
-  if (::connect(socket.descriptor(), to.get(), to.size) != 0 && errno != EINPROGRESS) return {};
+  if (::connect(socket.get(), to.get(), to.size) != 0 && errno != EINPROGRESS) return {};
   return socket;
 }
 
 bool wait_to_read(const Socket& one, const Socket& other, microseconds timeout) {
-  std::array<pollfd, 2> ready{pollfd{one.descriptor(), POLLIN, 0}, pollfd{other.descriptor(), POLLIN, 0}};
+  std::array<pollfd, 2> ready{pollfd{one.get(), POLLIN, 0}, pollfd{other.get(), POLLIN, 0}};
   const timespec limit = limit_of(timeout);
   return ::ppoll(ready.data(), ready.size(), &limit, nullptr) > 0;
 }
@@ -172,13 +158,13 @@ Connecting connecting(const Socket& socket) {
   if (!wait_to_connect(socket, microseconds::zero())) return Connecting::pending;
   int failed = 0;
   socklen_t size = sizeof failed;
-  ::getsockopt(socket.descriptor(), SOL_SOCKET, SO_ERROR, &failed, &size);
+  ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &failed, &size);
   return failed == 0 ? Connecting::connected : Connecting::failed;
 }
 
 Socket listen_tcp(const Address& local) {
   Socket socket = open_bound(local, SOCK_STREAM);
-  if (::listen(socket.descriptor(), 8) != 0) fail_bound(local);
+  if (::listen(socket.get(), 8) != 0) fail_bound(local);
   return socket;
 }
 
@@ -190,21 +176,21 @@ Socket join_multicast(const std::array<std::uint8_t, 4>& group, std::uint16_t po
   for (const std::uint8_t byte : group) host = host << 8U | byte;
   Socket socket = open_socket(AF_INET, SOCK_DGRAM);
   const int shared = 1;
-  ::setsockopt(socket.descriptor(), SOL_SOCKET, SO_REUSEADDR, &shared, sizeof shared);
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &shared, sizeof shared);
   const Address at = ip4(host, port);
   ip_mreq membership{};
   membership.imr_multiaddr.s_addr = htonl(host);
   membership.imr_interface = reinterpret_cast<const sockaddr_in*>(&local.storage)->sin_addr;
-  if (!socket || local.storage.ss_family != AF_INET || ::bind(socket.descriptor(), at.get(), at.size) != 0 ||
-      ::setsockopt(socket.descriptor(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) != 0)
+  if (!socket || local.storage.ss_family != AF_INET || ::bind(socket.get(), at.get(), at.size) != 0 ||
+      ::setsockopt(socket.get(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) != 0)
     throw system_error("the multicast group " + at.host() + " cannot be joined at " + local.host(), errno);
   return socket;
 }
 
 std::optional<Accepted> accept_tcp(const Socket& listener) {
   Accepted accepted;
-  accepted.socket = Socket(::accept4(listener.descriptor(), accepted.from.get(), &accepted.from.size,
-                                     SOCK_NONBLOCK | SOCK_CLOEXEC));
+  accepted.socket = Socket(
+      ::accept4(listener.get(), accepted.from.get(), &accepted.from.size, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!accepted.socket) return std::nullopt;
   set_up(accepted.socket);
   return accepted;
@@ -212,28 +198,28 @@ std::optional<Accepted> accept_tcp(const Socket& listener) {
 
 Socket connect_udp(const Address& to) {
   Socket socket = open_socket(to.storage.ss_family, SOCK_DGRAM);
-  if (!socket || ::connect(socket.descriptor(), to.get(), to.size) != 0)
+  if (!socket || ::connect(socket.get(), to.get(), to.size) != 0)
     throw system_error(to.host() + " cannot be reached", errno);
   return socket;
 }
 
 std::optional<std::size_t> send(const Socket& socket, ByteView bytes) {
-  const ssize_t count = ::send(socket.descriptor(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  const ssize_t count = ::send(socket.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
   if (count >= 0) return static_cast<std::size_t>(count);
   if (errno == EAGAIN || errno == EINTR) return 0;
   return std::nullopt;
 }
 
 void send_datagram(const Socket& socket, ByteView bytes, const Address& to) {
-  ::sendto(socket.descriptor(), bytes.data(), bytes.size(), MSG_NOSIGNAL, to.get(), to.size);
+  ::sendto(socket.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL, to.get(), to.size);
 }
 
 void bound_sending(const Socket& socket, int bytes) {
-  ::setsockopt(socket.descriptor(), SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
 }
 
 std::optional<ByteView> receive(const Socket& socket, std::span<std::uint8_t> buffer) {
-  const ssize_t count = ::recv(socket.descriptor(), buffer.data(), buffer.size(), 0);
+  const ssize_t count = ::recv(socket.get(), buffer.data(), buffer.size(), 0);
   if (count > 0) return ByteView(buffer.first(static_cast<std::size_t>(count)));
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return ByteView();
   return std::nullopt;
@@ -241,8 +227,8 @@ std::optional<ByteView> receive(const Socket& socket, std::span<std::uint8_t> bu
 
 std::optional<Datagram> receive_datagram(const Socket& socket, std::span<std::uint8_t> buffer) {
   Datagram datagram;
-  const ssize_t count = ::recvfrom(socket.descriptor(), buffer.data(), buffer.size(), 0, datagram.from.get(),
-                                   &datagram.from.size);
+  const ssize_t count =
+      ::recvfrom(socket.get(), buffer.data(), buffer.size(), 0, datagram.from.get(), &datagram.from.size);
   if (count < 0) return std::nullopt;
   datagram.bytes = buffer.first(static_cast<std::size_t>(count));
   return datagram;

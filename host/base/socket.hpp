@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/base/bytes.hpp"
+#include "host/base/descriptor.hpp"
 
 /// TCP and UDP without waiting: all sockets are non-blocking, and only the functions with a time-out wait.
 namespace astro::net {
@@ -21,21 +22,7 @@ using std::chrono::microseconds;
 /// What is wrong with an address. Values: the host's name; the port and this computer's address.
 enum class AddressProblem { host_unknown, port_unusable };
 
-/// Owns a descriptor.
-class Socket {
- public:
-  Socket() = default;
-  explicit Socket(int descriptor) : descriptor_(descriptor) {}
-  Socket(Socket&& other) noexcept;
-  Socket& operator=(Socket&& other) noexcept;
-  ~Socket();
-
-  explicit operator bool() const { return descriptor_ >= 0; }
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_ = -1;
-};
+using Socket = Descriptor;
 
 /// Whether it is an address in digits, of either family: "192.168.1.7", "::1".
 bool is_address(const std::string& text);

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace astro {
 
@@ -15,10 +16,11 @@ std::string system_reason(int code) {
   return "this program has as many files open as its limit allows, " + std::to_string(limit.rlim_cur);
 }
 
-Error system_error(const std::string& fact, int code, const std::string& advice, Kind kind) {
+Error system_error(const std::string& fact, int code, const std::string& advice, Kind kind,
+                   std::vector<std::string> values) {
   const std::string sentence = fact + ": " + system_reason(code);
   if (code == EMFILE || code == ENFILE) return Error(sentence);
-  return Error(sentence + advice, kind);
+  return Error(sentence + advice, kind, std::move(values));
 }
 
 }  // namespace astro

@@ -14,7 +14,7 @@
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/film/picture/child_process.hpp"
+#include "host/film/picture/film_program.hpp"
 
 namespace astro::film {
 namespace {
@@ -96,7 +96,7 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
       "-of",
       "default"};
   for (std::string& word : as_input(film)) words.push_back(std::move(word));
-  ChildProcess probe(std::move(words), [&](std::string_view line) {
+  FilmProgram probe(std::move(words), [&](std::string_view line) {
     if (said.size() < kMostSaid) said.append(line.substr(0, 400)).append("\n");
   });
   std::array<std::uint8_t, 8192> buffer;

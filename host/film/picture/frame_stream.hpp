@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "host/film/picture/child_process.hpp"
 #include "host/film/picture/film_info.hpp"
+#include "host/film/picture/film_program.hpp"
 #include "host/film/picture/gray_frame.hpp"
 
 namespace astro::film {
@@ -41,7 +41,7 @@ class FrameStream {
   double time_base_s_ = 0;
   std::deque<Stamp> stamps_;  // of pictures that are still to come
   std::string complaint_;
-  ChildProcess decoder_;
+  FilmProgram decoder_;
 };
 
 }  // namespace astro::film

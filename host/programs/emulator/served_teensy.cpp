@@ -28,14 +28,13 @@ fs::path beside(fs::path path, const char* suffix) { return path += suffix; }
 }  // namespace
 
 HalfKay::HalfKay(fs::path fifo) : path_(std::move(fifo)) {
-  if (mkfifo(path_.c_str(), 0600) == 0) fd_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (fd_ < 0)
+  if (mkfifo(path_.c_str(), 0600) == 0) fifo_.reset(open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!fifo_)
     throw Error(
         fmt::format("the boot loader's '{}' cannot be made: {}", path_.string(), std::strerror(errno)));
 }
 
 HalfKay::~HalfKay() {
-  close(fd_);
   std::error_code ignored;
   fs::remove(path_, ignored);
 }
@@ -43,7 +42,7 @@ HalfKay::~HalfKay() {
 std::optional<std::string> HalfKay::receive() {
   std::array<char, 4096> bytes{};
   ssize_t count = 0;
-  while ((count = read(fd_, bytes.data(), bytes.size())) > 0)
+  while ((count = read(fifo_.get(), bytes.data(), bytes.size())) > 0)
     received_.append(bytes.data(), static_cast<std::size_t>(count));
   const bool closed = count == 0;  // by the writer, or no writer has opened it yet
   if (!closed || received_.empty()) return {};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/descriptor.hpp"
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/simulation/server/served_robot.hpp"
 
@@ -29,7 +30,7 @@ class HalfKay {
 
  private:
   std::filesystem::path path_;
-  int fd_ = -1;
+  Descriptor fifo_;
   std::string received_;
 };
 

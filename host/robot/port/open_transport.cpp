@@ -157,10 +157,10 @@ asio::ip::tcp::socket connect_tcp(asio::io_context& context, const std::string& 
 
 }  // namespace
 
-int open_line(const std::string& address, unsigned baud) {
+Descriptor open_line(const std::string& address, unsigned baud) {
   if (!address.starts_with("tcp:")) return open_serial_port(address, baud);
   asio::io_context context;
-  return connect_tcp(context, address, parse_tcp(address)).release();
+  return Descriptor(connect_tcp(context, address, parse_tcp(address)).release());
 }
 
 std::string tcp_key(const std::string& address) {
@@ -177,9 +177,11 @@ std::unique_ptr<Transport> open_transport(const std::string& address, unsigned b
   }
   using StreamDescriptor = asio::posix::stream_descriptor;
   return std::make_unique<StreamTransport<StreamDescriptor>>(address, [=](asio::io_context& context) {
-    StreamDescriptor descriptor(context, open_serial_port(address, baud));
-    descriptor.non_blocking(true);
-    return descriptor;
+    Descriptor port = open_serial_port(address, baud);
+    StreamDescriptor stream(context, port.get());
+    port.release();
+    stream.non_blocking(true);
+    return stream;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "host/base/descriptor.hpp"
 #include "host/robot/port/transport.hpp"
 
 namespace astro::robot {
@@ -23,8 +24,8 @@ inline constexpr unsigned kDefaultBaud = 1'000'000;
 /// at, not a serial port, not on this machine, nobody listens, not an address.
 std::unique_ptr<Transport> open_transport(const std::string& address, unsigned baud = kDefaultBaud);
 
-/// Opens the same as a non-blocking file descriptor, which the caller owns. A TCP address is not locked.
-int open_line(const std::string& address, unsigned baud);
+/// Opens the same as a non-blocking file descriptor. A TCP address is not locked.
+Descriptor open_line(const std::string& address, unsigned baud);
 
 /// The key of a TCP address, as PortInUse::key() is for a serial port. Throws Error if the address is not
 /// one.

@@ -15,7 +15,6 @@
 
 #include "host/base/error.hpp"
 #include "host/base/system_error.hpp"
-#include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/ports.hpp"
 
 namespace astro::robot {
@@ -88,9 +87,9 @@ std::string port_key_of(int descriptor) {
   return port_key(about);
 }
 
-int open_serial_port(const std::string& path, unsigned baud) {
+Descriptor open_serial_port(const std::string& path, unsigned baud) {
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (port.get() < 0) throw Error(why_not_open(path, errno));
+  if (!port) throw Error(why_not_open(path, errno));
   termios2 mode{};
   if (::ioctl(port.get(), TCGETS2, &mode) != 0) throw Error(path + " is not a serial port");
   struct stat about {};
@@ -106,7 +105,7 @@ int open_serial_port(const std::string& path, unsigned baud) {
     if (errno == EIO) throw Error(why_not_open(path, EIO));
     throw Error(path + " cannot be set to " + std::to_string(baud) + " baud: " + std::strerror(errno));
   }
-  return port.release();
+  return port;
 }
 
 }  // namespace astro::robot

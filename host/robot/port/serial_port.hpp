@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "host/base/descriptor.hpp"
 #include "host/base/error.hpp"
 
 namespace astro::robot {
@@ -27,8 +28,8 @@ std::string port_key(const struct stat& about);
 std::string port_key_of(int descriptor);
 
 /// Opens and locks a serial port or pty for open_transport(), and throws what is said there; PortInUse if
-/// another program has locked it. Returns a non-blocking file descriptor that the caller owns. The lock is
-/// flock's: it ends with the process, however that ends.
-int open_serial_port(const std::string& path, unsigned baud);
+/// another program has locked it. Returns a non-blocking file descriptor. The lock is flock's: it ends with the
+/// process, however that ends.
+Descriptor open_serial_port(const std::string& path, unsigned baud);
 
 }  // namespace astro::robot

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "host/base/descriptor.hpp"
 #include "host/base/error.hpp"
-#include "host/robot/port/descriptor.hpp"
 #include "host/robot/port/transport.hpp"
 #include "host/robot/sharing/port_user.hpp"
 

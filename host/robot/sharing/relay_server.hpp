@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "host/base/descriptor.hpp"
 #include "host/base/error.hpp"
-#include "host/robot/port/descriptor.hpp"
 #include "host/robot/sharing/relay.hpp"
 
 namespace astro::robot {

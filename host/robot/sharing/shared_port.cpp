@@ -64,9 +64,9 @@ class SharedPort {
     SharedLine shared;
     if (is_tcp()) {
       shared.listener = hold_tcp();
-      shared.line.reset(open_line(address_, baud_));
+      shared.line = open_line(address_, baud_);
     } else {
-      shared.line.reset(open_line(address_, baud_));
+      shared.line = open_line(address_, baud_);
       try {
         shared.listener = listen_at(port_key_of(shared.line.get()));
       } catch (const Error& error) {  // this program can use the port anyway

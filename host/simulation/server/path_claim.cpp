@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstddef>
@@ -22,23 +21,11 @@ std::optional<PathClaim> PathClaim::of(const std::filesystem::path& path) {
   const std::string name = fmt::format("astrolabe-pty-{:016x}", std::hash<std::string>{}(whole));
   name.copy(address.sun_path + 1, sizeof(address.sun_path) - 1);  // a leading zero byte makes it abstract
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (fd >= 0 && bind(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0) return PathClaim(fd);
-  const int failure = errno;
-  if (fd >= 0) close(fd);
-  if (failure == EADDRINUSE) return std::nullopt;
-  throw system_error(fmt::format("it cannot be known whether '{}' is in use", path.string()), failure);
-}
-
-PathClaim::PathClaim(PathClaim&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
-
-PathClaim& PathClaim::operator=(PathClaim&& other) noexcept {
-  std::swap(socket_, other.socket_);
-  return *this;
-}
-
-PathClaim::~PathClaim() {
-  if (socket_ >= 0) close(socket_);
+  Descriptor claim(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (claim && bind(claim.get(), reinterpret_cast<const sockaddr*>(&address), size) == 0)
+    return PathClaim(std::move(claim));
+  if (errno == EADDRINUSE) return std::nullopt;
+  throw system_error(fmt::format("it cannot be known whether '{}' is in use", path.string()), errno);
 }
 
 }  // namespace astro::simulation

@@ -2,6 +2,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
+
+#include "host/base/descriptor.hpp"
 
 namespace astro::simulation {
 
@@ -12,14 +15,10 @@ class PathClaim {
   /// Nothing if another process has claimed the path. Throws astro::Error if it cannot be known.
   static std::optional<PathClaim> of(const std::filesystem::path& path);
 
-  PathClaim(PathClaim&& other) noexcept;
-  PathClaim& operator=(PathClaim&& other) noexcept;
-  ~PathClaim();
-
  private:
-  explicit PathClaim(int socket) : socket_(socket) {}
+  explicit PathClaim(Descriptor socket) : socket_(std::move(socket)) {}
 
-  int socket_;
+  Descriptor socket_;
 };
 
 }  // namespace astro::simulation

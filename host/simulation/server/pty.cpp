@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
   throw system_error("no pseudo terminal can be opened: " + what, errno);
 }
 
-int open_master() {
-  const int fd = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) fail("posix_openpt");
-  if (grantpt(fd) != 0 || unlockpt(fd) != 0) fail("unlockpt");
-  return fd;
+Descriptor open_master() {
+  Descriptor master(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
+  if (!master) fail("posix_openpt");
+  if (grantpt(master.get()) != 0 || unlockpt(master.get()) != 0) fail("unlockpt");
+  return master;
 }
 
 std::string device_of(int fd) {
@@ -39,20 +39,19 @@ std::string device_of(int fd) {
 
 // The settings belong to the terminal, not to the descriptor: they stay when it is closed.
 void make_raw(const std::string& device) {
-  const int fd = open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (fd < 0) fail(device);
+  const Descriptor hosts_end(open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  if (!hosts_end) fail(device);
   termios settings{};
-  if (tcgetattr(fd, &settings) != 0) fail("tcgetattr");
+  if (tcgetattr(hosts_end.get(), &settings) != 0) fail("tcgetattr");
   cfmakeraw(&settings);
-  if (tcsetattr(fd, TCSANOW, &settings) != 0) fail("tcsetattr");
-  close(fd);
+  if (tcsetattr(hosts_end.get(), TCSANOW, &settings) != 0) fail("tcsetattr");
 }
 
 // Names the terminal without opening it: the terminal still knows whether a host has it open.
-int refer_to(const std::string& device) {
-  const int fd = open(device.c_str(), O_PATH | O_CLOEXEC);
-  if (fd < 0) fail(device);
-  return fd;
+Descriptor refer_to(const std::string& device) {
+  Descriptor reference(open(device.c_str(), O_PATH | O_CLOEXEC));
+  if (!reference) fail(device);
+  return reference;
 }
 
 PathClaim claim(const fs::path& link) {
@@ -98,11 +97,11 @@ void make_link(const fs::path& target, const fs::path& link) {
 
 }  // namespace
 
-Pty::Pty(const fs::path& link) : fd_(open_master()) {
-  const std::string device = device_of(fd_);
+Pty::Pty(const fs::path& link) : master_(open_master()) {
+  const std::string device = device_of(master_.get());
   make_raw(device);
   reference_ = refer_to(device);
-  target_ = fmt::format("/proc/{}/fd/{}", getpid(), reference_);
+  target_ = fmt::format("/proc/{}/fd/{}", getpid(), reference_.get());
   add_link(link);
 }
 
@@ -110,8 +109,6 @@ Pty::~Pty() {
   std::error_code ignored;
   for (const fs::path& link : links_)
     if (fs::is_symlink(link) && fs::read_symlink(link, ignored) == target_) fs::remove(link, ignored);
-  close(reference_);
-  close(fd_);
 }
 
 void Pty::add_link(const fs::path& link) {
@@ -121,22 +118,22 @@ void Pty::add_link(const fs::path& link) {
 }
 
 bool Pty::connected() const {
-  pollfd state{fd_, POLLOUT, 0};
+  pollfd state{master_.get(), POLLOUT, 0};
   return poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
 }
 
 std::uint32_t Pty::baud() const {
   termios settings{};
-  return tcgetattr(fd_, &settings) == 0 && cfgetospeed(&settings) == B134 ? 134 : 115'200;
+  return tcgetattr(master_.get(), &settings) == 0 && cfgetospeed(&settings) == B134 ? 134 : 115'200;
 }
 
 std::size_t Pty::read(std::span<std::uint8_t> into) {
-  const ssize_t count = ::read(fd_, into.data(), into.size());
+  const ssize_t count = ::read(master_.get(), into.data(), into.size());
   return count > 0 ? static_cast<std::size_t>(count) : 0;  // EAGAIN, or EIO while no program has it open
 }
 
 std::size_t Pty::write(std::span<const std::uint8_t> bytes) {
-  const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
+  const ssize_t count = ::write(master_.get(), bytes.data(), bytes.size());
   return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 

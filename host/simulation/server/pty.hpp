@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/base/descriptor.hpp"
 #include "host/simulation/server/path_claim.hpp"
 
 namespace astro::simulation {
@@ -30,7 +31,7 @@ class Pty {
   /// Adds another link to the same terminal; the destructor removes it.
   void add_link(const std::filesystem::path& link);
 
-  int fd() const { return fd_; }
+  int fd() const { return master_.get(); }
   const std::filesystem::path& link() const { return links_.front(); }
 
   /// True while a host has the other end open.
@@ -44,8 +45,8 @@ class Pty {
   std::size_t write(std::span<const std::uint8_t> bytes);
 
  private:
-  int fd_ = -1;
-  int reference_ = -1;            // to the hosts' end
+  Descriptor master_;
+  Descriptor reference_;          // to the hosts' end
   std::filesystem::path target_;  // of the links
   std::vector<std::filesystem::path> links_;
   std::vector<PathClaim> claims_;  // of the links

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "host/base/system_error.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 4U << 20U;
 
-int listen_at(const std::filesystem::path& path) {
+Descriptor listen_at(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string text = path.string();
@@ -25,20 +25,18 @@ int listen_at(const std::filesystem::path& path) {
   std::strcpy(address.sun_path, text.c_str());
   std::error_code ignored;
   if (std::filesystem::is_socket(path, ignored)) std::filesystem::remove(path, ignored);
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0 || bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
-      listen(fd, 4) != 0)
+  Descriptor listener(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!listener || bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
+      listen(listener.get(), 4) != 0)
     throw system_error("the virtual cameras' socket '" + text + "' cannot be made", errno);
-  return fd;
+  return listener;
 }
 
 }  // namespace
 
-TruthServer::TruthServer(std::filesystem::path path) : path_(std::move(path)), fd_(listen_at(path_)) {}
+TruthServer::TruthServer(std::filesystem::path path) : path_(std::move(path)), listener_(listen_at(path_)) {}
 
 TruthServer::~TruthServer() {
-  for (const Client& client : clients_) close(client.fd);
-  close(fd_);
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
   for (const std::filesystem::path& link : links_) std::filesystem::remove(link, ignored);
@@ -55,9 +53,8 @@ void TruthServer::add_link(const std::filesystem::path& link) {
 }
 
 void TruthServer::accept_clients() {
-  int fd;
-  while ((fd = accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)) >= 0)
-    clients_.push_back({fd, "astrolabe-mocap 1\n"});
+  while (Descriptor client{accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)})
+    clients_.push_back({std::move(client), "astrolabe-mocap 1\n"});
 }
 
 void TruthServer::send(const recording::TruthSample& sample) {
@@ -70,14 +67,11 @@ void TruthServer::send(const recording::TruthSample& sample) {
 bool TruthServer::flush() {
   bool waiting = false;
   std::erase_if(clients_, [&](Client& client) {
-    const ssize_t sent = client.waiting.empty()
-                             ? 0
-                             : ::send(client.fd, client.waiting.data(), client.waiting.size(), MSG_NOSIGNAL);
+    const ssize_t sent = client.waiting.empty() ? 0
+                                                : ::send(client.socket.get(), client.waiting.data(),
+                                                         client.waiting.size(), MSG_NOSIGNAL);
     const bool gone = (sent < 0 && errno != EAGAIN && errno != EINTR) || client.waiting.size() > kMostWaiting;
-    if (gone) {
-      close(client.fd);
-      return true;
-    }
+    if (gone) return true;
     if (sent > 0) client.waiting.erase(0, static_cast<std::size_t>(sent));
     waiting = waiting || !client.waiting.empty();
     return false;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/descriptor.hpp"
 #include "host/recording/run.hpp"
 
 namespace astro::simulation {
@@ -34,13 +35,13 @@ class TruthServer {
 
  private:
   struct Client {
-    int fd;
+    Descriptor socket;
     std::string waiting;
   };
 
   std::filesystem::path path_;
   std::vector<std::filesystem::path> links_;
-  int fd_ = -1;
+  Descriptor listener_;
   std::vector<Client> clients_;
 };
 

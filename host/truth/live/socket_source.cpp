@@ -2,7 +2,6 @@
 
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -23,21 +22,17 @@ constexpr std::string_view kGreeting = "astrolabe-mocap 1";
 constexpr std::size_t kMostPending = std::size_t{1} << 20;
 constexpr std::size_t kLongestLine = 1024;
 
-int connect_to(const std::filesystem::path& path) {
+Descriptor connect_to(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string text = path.string();
   if (text.size() >= sizeof(address.sun_path))
     throw Error("the path '" + text + "' is too long for a socket");
   std::strcpy(address.sun_path, text.c_str());
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    const Error why =
-        system_error("no virtual cameras at '" + text + "'", errno, {}, SocketProblem::not_served);
-    if (fd >= 0) close(fd);
-    throw Error(why.what(), why.kind(), {text});
-  }
-  return fd;
+  Descriptor cameras(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (!cameras || connect(cameras.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
+    throw system_error("no virtual cameras at '" + text + "'", errno, {}, SocketProblem::not_served, {text});
+  return cameras;
 }
 
 template <class Number>
@@ -50,14 +45,13 @@ bool take(std::string_view& line, Number& number) {
 
 }  // namespace
 
-SocketSource::SocketSource(const std::filesystem::path& path) : path_(path), fd_(connect_to(path)) {}
-
-SocketSource::~SocketSource() { close(fd_); }
+SocketSource::SocketSource(const std::filesystem::path& path) : path_(path), socket_(connect_to(path)) {}
 
 std::vector<recording::TruthSample> SocketSource::poll() {
   std::array<char, 16384> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   ssize_t count = -1;
-  while (pending_.size() < kMostPending && (count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
+  while (pending_.size() < kMostPending &&
+         (count = recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
     pending_.append(bytes.data(), static_cast<std::size_t>(count));
   if (count == 0)
     throw Error("the simulator's cameras at '" + path_.string() + "' have disconnected: is it still running?",

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "host/base/descriptor.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::truth {
@@ -16,7 +17,6 @@ class SocketSource : public Source {
  public:
   /// Throws astro::Error with SocketProblem::not_served if nobody serves there.
   explicit SocketSource(const std::filesystem::path& path);
-  ~SocketSource() override;
 
   std::vector<recording::TruthSample> poll() override;
   std::string name() const override { return "sim"; }
@@ -27,7 +27,7 @@ class SocketSource : public Source {
   [[noreturn]] void fail_line() const;
 
   std::filesystem::path path_;
-  int fd_ = -1;
+  Descriptor socket_;
   bool greeted_ = false;
   std::string pending_;  // an incomplete line
 };

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "host/film/picture/child_process.hpp"
 #include "host/film/picture/detector.hpp"
 #include "host/film/picture/film_info.hpp"
+#include "host/film/picture/film_program.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
@@ -75,20 +75,20 @@ TEST_F(NoFilm, IsOfAContainerThatPhonesWrite) {
     EXPECT_EQ(read_film_info(film(name, "128x128", "-pix_fmt yuv420p")).height, 128) << name;
 }
 
-TEST(ChildProcess, ThatNeitherWritesNorEndsIsEnded) {
+TEST(FilmProgram, ThatNeitherWritesNorEndsIsEnded) {
   const auto begin = std::chrono::steady_clock::now();
   const auto silent = [](const std::string& script, auto work) {
-    ChildProcess child(
+    FilmProgram child(
         {"sh", "-c", script}, [](std::string_view) {}, milliseconds(100));
     work(child);
   };
   std::uint8_t byte[1];
-  EXPECT_THAT([&] { silent("exec sleep 100", [&](ChildProcess& child) { child.read(byte); }); },
-              ThrowsTelling(ChildProblem::silent, "sh", "100"));
-  EXPECT_THAT([&] { silent("exec >&-; exec sleep 100", [](ChildProcess& child) { child.finish(); }); },
-              ThrowsTelling(ChildProblem::silent, "sh", "100"));
-  silent("exec >&- 2>&-; exec sleep 100", [](ChildProcess& child) { EXPECT_FALSE(child.finish()); });
-  silent("echo a; exec sleep 100", [&](ChildProcess& child) { EXPECT_EQ(child.read(byte), 1U); });
+  EXPECT_THAT([&] { silent("exec sleep 100", [&](FilmProgram& child) { child.read(byte); }); },
+              ThrowsTelling(FilmProgramProblem::silent, "sh", "100"));
+  EXPECT_THAT([&] { silent("exec >&-; exec sleep 100", [](FilmProgram& child) { child.finish(); }); },
+              ThrowsTelling(FilmProgramProblem::silent, "sh", "100"));
+  silent("exec >&- 2>&-; exec sleep 100", [](FilmProgram& child) { EXPECT_FALSE(child.finish()); });
+  silent("echo a; exec sleep 100", [&](FilmProgram& child) { EXPECT_EQ(child.read(byte), 1U); });
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 

@@ -172,8 +172,8 @@ TEST(NatNetLink, JoinsTheGroupThatTheServerNames) {
   EXPECT_EQ(link.way(), "by multicast");
   const in_addr loopback{htonl(INADDR_LOOPBACK)};  // the frames do not leave this computer
   const unsigned char hops = 0;
-  ::setsockopt(server.socket.descriptor(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback);
-  ::setsockopt(server.socket.descriptor(), IPPROTO_IP, IP_MULTICAST_TTL, &hops, sizeof hops);
+  ::setsockopt(server.socket.get(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback);
+  ::setsockopt(server.socket.get(), IPPROTO_IP, IP_MULTICAST_TTL, &hops, sizeof hops);
   net::send_datagram(server.socket, frame_of({body_at(2, 1)}),
                      net::Address::all_of("239.255.42.99", data_port).front());
   link.wait(milliseconds(1000));

@@ -4,9 +4,9 @@
 
 #include <utility>
 
-namespace astro::robot {
+namespace astro {
 
-/// Owns a file descriptor.
+/// Owns a file descriptor and closes it. Where the result of close() matters, release() it.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -30,4 +30,4 @@ class Descriptor {
   int number_ = -1;
 };
 
-}  // namespace astro::robot
+}  // namespace astro
