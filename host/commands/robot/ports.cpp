@@ -3,10 +3,10 @@
 #include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
+#include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
-#include "host/robot/client/discovery.hpp"
 #include "host/robot/client/handshake.hpp"
 #include "host/robot/port/open_transport.hpp"
 
@@ -51,8 +51,7 @@ void show(const std::vector<robot::FoundPort>& found) {
 }
 
 void run(const PortsOptions& options) {
-  const auto found =
-      robot::find_robots(robot::candidate_ports(), std::chrono::milliseconds(500), options.baud);
+  const auto found = find_robots(options.baud);
   if (options.json) return print_json(as_json(found));
   show(found);
 }

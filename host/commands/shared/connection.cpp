@@ -10,18 +10,21 @@
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
-#include "host/robot/client/discovery.hpp"
 #include "host/robot/sharing/shared_port.hpp"
 
 namespace astro::commands {
 namespace {
 
+robot::SharedPorts& ports_of_this_program() {
+  static robot::SharedPorts ports;
+  return ports;
+}
+
 /// A robot that is seen at two of its ports is one, and either will do.
 std::string only_robot(unsigned baud) {
   std::string robots, reasons, first;
   std::set<std::array<std::uint8_t, 16>> identities;
-  for (const robot::FoundPort& found :
-       robot::find_robots(robot::candidate_ports(), std::chrono::milliseconds(500), baud)) {
+  for (const robot::FoundPort& found : find_robots(baud)) {
     if (found.robot) {
       if (first.empty()) first = found.port.address;
       robots += fmt::format("{}{} ({})", identities.empty() ? "" : ", ", found.port.address,
@@ -52,9 +55,17 @@ void add_connection(console::Command command, ConnectionOptions& options) {
       .check(console::whole(1, 20'000'000));
 }
 
+std::vector<robot::FoundPort> find_robots(unsigned baud) {
+  return robot::find_robots(ports_of_this_program(), robot::candidate_ports(), std::chrono::milliseconds(500),
+                            baud);
+}
+
+void leave_ports_to_others() { ports_of_this_program().leave_to_others(); }
+
 std::unique_ptr<robot::Transport> open_port(const ConnectionOptions& options) {
-  return robot::open_shared_port(options.port.empty() ? only_robot(options.baud) : options.port, options.baud,
-                                 [](const Remark& remark) { console::say(in_words(remark)); });
+  return ports_of_this_program().open(options.port.empty() ? only_robot(options.baud) : options.port,
+                                      options.baud,
+                                      [](const Remark& remark) { console::say(in_words(remark)); });
 }
 
 std::unique_ptr<robot::Client> connect(ConnectionOptions& options) {

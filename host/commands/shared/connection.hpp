@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "host/console/command_line.hpp"
 #include "host/robot/client/client.hpp"
+#include "host/robot/client/discovery.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/port/open_transport.hpp"
 
@@ -17,6 +19,12 @@ struct ConnectionOptions {
 };
 
 void add_connection(console::Command command, ConnectionOptions& options);
+
+/// What answers at the candidate ports of this computer.
+std::vector<robot::FoundPort> find_robots(unsigned baud);
+
+/// The last act of this program, which has closed its ports: other programs that use one go on using it.
+void leave_ports_to_others();
 
 /// Opens the port, shared with other programs. Without --port that of the only robot found, which may be another one each
 /// time; throws astro::Error as connect() does.

@@ -13,6 +13,7 @@
 #include "host/base/interrupted.hpp"
 #include "host/base/system_error.hpp"
 #include "host/commands/base/advice.hpp"
+#include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
@@ -65,12 +66,8 @@ std::string refused_by_system(const std::system_error& error) {
   std::_Exit(kFailed);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::set_terminate(report_and_terminate);
-  hold_standard_streams();
-  watch_for_interrupt();
+/// Turns every exception into one sentence and an exit code.
+int run_and_report(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const astro::Interrupted& error) {
@@ -95,4 +92,15 @@ int main(int argc, char** argv) {
     complain(std::string("this should not have happened, please report it: ") + error.what());
     return kFailed;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::set_terminate(report_and_terminate);
+  hold_standard_streams();
+  watch_for_interrupt();
+  const int code = run_and_report(argc, argv);
+  leave_ports_to_others();  // whatever ended the command
+  return code;
 }

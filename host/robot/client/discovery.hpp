@@ -8,6 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/robot/port/open_transport.hpp"
 #include "host/robot/port/ports.hpp"
+#include "host/robot/sharing/shared_port.hpp"
 
 namespace astro::robot {
 
@@ -20,10 +21,7 @@ struct FoundPort {
 /// Sends Hello to all ports at the same time; takes at most about `timeout` in all. The answers are in the
 /// order of the ports. A port that another program shares is asked through that program; one that it does not
 /// share is not opened, and its reason says so.
-std::vector<FoundPort> find_robots(const std::vector<Port>& ports, microseconds timeout,
+std::vector<FoundPort> find_robots(SharedPorts& shared, const std::vector<Port>& ports, microseconds timeout,
                                    unsigned baud = kDefaultBaud);
-
-/// The same at every candidate port of this machine.
-std::vector<FoundPort> find_robots(microseconds timeout = std::chrono::milliseconds(500));
 
 }  // namespace astro::robot

@@ -57,9 +57,9 @@ struct Welcome {
   static constexpr std::tuple<> kFields{};
 };
 
-enum class FarewellReason : std::uint8_t { line_lost, reads_too_slowly, too_many };
-inline constexpr std::array<std::string_view, 3> kFarewellReasonNames{"line_lost", "reads_too_slowly",
-                                                                      "too_many"};
+enum class FarewellReason : std::uint8_t { line_lost, reads_too_slowly, too_many, holder_ended };
+inline constexpr std::array<std::string_view, 4> kFarewellReasonNames{"line_lost", "reads_too_slowly",
+                                                                      "too_many", "holder_ended"};
 constexpr std::span<const std::string_view> names(FarewellReason) { return kFarewellReasonNames; }
 
 /// The clause after "lost PORT: ".
@@ -72,6 +72,8 @@ constexpr std::string_view fact(FarewellReason reason) {
              "disconnected it";
     case FarewellReason::too_many:
       return "too many programs use it at once: end some of them";
+    case FarewellReason::holder_ended:
+      return "the program that held the port has ended";
   }
   return "the program that holds the port has disconnected this one";
 }

@@ -79,18 +79,21 @@ RelayServer::RelayServer(SharedLine shared)
   if (!wake_) throw system_error("the port cannot be served", errno);
   constexpr std::array<std::uint8_t, 1> kEndOfWhateverCameBefore{0};
   relay_.to_robot().push(kEndOfWhateverCameBefore);
-  start();
+  start(&RelayServer::run);
 }
 
+/// Of the Farewells each program gets as much as its socket takes at once.
 RelayServer::~RelayServer() {
   stop();
   if (lost_) return;
-  if (guests_ > 0) serve_in_background();
+  relay_.close_all(FarewellReason::holder_ended);
+  end_connections();
 }
 
-void RelayServer::start() {
+void RelayServer::start(void (RelayServer::*work)()) {
+  stop_ = false;
   const BlockedSignals blocked;
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread(work, this);
 }
 
 void RelayServer::stop() {
@@ -252,21 +255,34 @@ void RelayServer::lose_line() {
   lost_ = true;
 }
 
-/// If no process can be left behind, the connections of the others end.
-void RelayServer::serve_in_background() {
+void RelayServer::serve_guests() {
+  microseconds last_guest = steady_now();
+  const auto owes_stop = [&] { return relay_.owes_stop() && steady_now() - last_guest < kStopTimeout; };
+  while (!stop_ && !lost_ && (guests_ > 0 || owes_stop())) {
+    turn();
+    if (guests_ > 0) last_guest = steady_now();
+  }
+  if (!stop_ && !lost_) lose_line();
+}
+
+bool RelayServer::serve_others_only() {
+  stop();
+  if (lost_ || guests_ == 0) return false;
+  start(&RelayServer::serve_guests);
+  return true;
+}
+
+void RelayServer::leave_behind() {
+  stop();
+  if (lost_ || guests_ == 0) return;
   std::vector<int> keep{wake_.get(), shared_.line.get(), shared_.listener.get()};
   for (const Connection& connection : connections_) keep.push_back(connection.socket.get());
-  if (!leave_process_behind("astrolabe-relay", keep)) return;
+  if (!leave_process_behind("astrolabe-relay", keep)) return connections_.clear();
   constexpr int kBacklog = 16;
   if (shared_.listener)
     ::listen(shared_.listener.get(), kBacklog);  // again, so that SO_PEERCRED names this process
   stop_ = false;
-  microseconds last_guest = steady_now();
-  const auto stops = [&] { return relay_.owes_stop() && steady_now() - last_guest < kStopTimeout; };
-  while ((guests_ > 0 || stops()) && !lost_) {
-    turn();
-    if (guests_ > 0) last_guest = steady_now();
-  }
+  serve_guests();
   ::_exit(0);
 }
 

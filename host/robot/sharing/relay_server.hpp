@@ -23,14 +23,26 @@ struct SharedLine {
 /// A Relay on a thread of its own, so that a program that computes, prints or waits at a prompt still serves
 /// the others, above all an emergency stop.
 ///
-/// End  The destructor closes the line. If other programs still use it, a process that this one leaves behind
-///      goes on serving them, and ends with the last of them.
+/// End  The destructor closes the line and sends the other programs a Farewell. To go on serving them, call
+///      serve_others_only() once this program no longer needs the line, and leave_behind() at its end.
 class RelayServer {
  public:
   explicit RelayServer(SharedLine shared);
   ~RelayServer();
   RelayServer(const RelayServer&) = delete;
   RelayServer& operator=(const RelayServer&) = delete;
+
+  /// Goes on only until the last other program has gone, then closes the line. Returns false and serves nobody
+  /// if there is none, or if the line is lost.
+  bool serve_others_only();
+
+  /// Serves nobody until leave_behind().
+  void stop();
+
+  /// Leaves a process behind that goes on as serve_others_only() does, if other programs use the line; their
+  /// connections end if that fails. This process serves nobody from then on. Precondition: it has no other
+  /// thread, so every RelayServer of it has been stopped.
+  void leave_behind();
 
   /// A connection for this program itself; it gets neither Welcome nor Farewell.
   Descriptor connect_self();
@@ -51,9 +63,9 @@ class RelayServer {
     bool told = false;  // its Farewell has been written
   };
 
-  void start();
-  void stop();
+  void start(void (RelayServer::*work)());
   void run();
+  void serve_guests();
   void turn();
   void take_new_connections();
   void accept_guest();
@@ -66,7 +78,6 @@ class RelayServer {
   void end_connections();
   void lose_line();
   int milliseconds_to_wait() const;
-  void serve_in_background();
 
   SharedLine shared_;
   Relay relay_;  // used by the thread only

@@ -2,9 +2,11 @@
 
 #include <boost/asio/local/stream_protocol.hpp>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/port/stream_transport.hpp"
@@ -12,6 +14,29 @@
 #include "host/robot/sharing/relay_server.hpp"
 
 namespace astro::robot {
+
+/// Those that other programs still use.
+class ClosedPorts {
+ public:
+  void add(std::unique_ptr<RelayServer> server) {
+    if (!server || !server->serve_others_only()) return;
+    const std::lock_guard lock(mutex_);
+    std::erase_if(servers_, [](const auto& other) { return other->lost(); });
+    servers_.push_back(std::move(server));
+  }
+
+  void leave_to_others() {
+    const std::lock_guard lock(mutex_);
+    // A process is left behind only once this one has no other thread.
+    for (const auto& server : servers_) server->stop();
+    for (const auto& server : servers_) server->leave_behind();
+    servers_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<RelayServer>> servers_;
+};
 
 namespace {
 
@@ -26,12 +51,15 @@ constexpr milliseconds kPause(5);
 /// The connection of one program to a port: through its own relay or through that of another program.
 class SharedPort {
  public:
-  SharedPort(std::string address, unsigned baud, Notice notice)
-      : address_(std::move(address)), baud_(baud), notice_(std::move(notice)) {}
+  SharedPort(std::string address, unsigned baud, Notice notice, std::shared_ptr<ClosedPorts> closed)
+      : address_(std::move(address)), baud_(baud), notice_(std::move(notice)), closed_(std::move(closed)) {}
+  ~SharedPort() { closed_->add(std::move(server_)); }
+  SharedPort(const SharedPort&) = delete;
+  SharedPort& operator=(const SharedPort&) = delete;
 
   Descriptor open() {
     if (server_ && !server_->lost() && server_->has_guests()) return server_->connect_self();
-    server_.reset();
+    closed_->add(std::move(server_));
     holder_.reset();
     const auto deadline = std::chrono::steady_clock::now() + kStart;
     while (true) {
@@ -104,6 +132,7 @@ class SharedPort {
   std::string address_;
   unsigned baud_;
   Notice notice_;
+  std::shared_ptr<ClosedPorts> closed_;
   std::unique_ptr<RelayServer> server_;  // set if this program holds the port
   std::string key_;                      // set if another program serves this one
   std::optional<PortUser> holder_;
@@ -111,10 +140,14 @@ class SharedPort {
 
 }  // namespace
 
-std::unique_ptr<Transport> open_shared_port(const std::string& address, unsigned baud, Notice notice) {
+SharedPorts::SharedPorts() : closed_(std::make_shared<ClosedPorts>()) {}
+
+void SharedPorts::leave_to_others() { closed_->leave_to_others(); }
+
+std::unique_ptr<Transport> SharedPorts::open(const std::string& address, unsigned baud, Notice notice) {
   if (address.empty()) return open_transport(address, baud);  // which throws the error
   using Stream = StreamTransport<stream_protocol::socket>;
-  const auto port = std::make_shared<SharedPort>(address, baud, std::move(notice));
+  const auto port = std::make_shared<SharedPort>(address, baud, std::move(notice), closed_);
   return std::make_unique<Stream>(
       address,
       [port](boost::asio::io_context& context) {

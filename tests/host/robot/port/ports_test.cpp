@@ -64,7 +64,9 @@ TEST(Ports, FindsRobotsAndSaysWhyTheOthersAreNone) {
   fs::create_symlink(live.path(), folder.path() / "c_live.pty");
   const auto holder = open_transport(busy.path());
   const ServedRobot robot(live.master());
-  const auto found = find_robots(candidate_ports(folder.path(), folder.path()), std::chrono::seconds(3));
+  SharedPorts shared;
+  const auto found =
+      find_robots(shared, candidate_ports(folder.path(), folder.path()), std::chrono::seconds(3));
   ASSERT_EQ(found.size(), 3U);
   EXPECT_THAT(found[0].reason.sentence, HasSubstr("does not answer"));
   EXPECT_THAT(found[1].reason.sentence, HasSubstr("is in use by another program"));
@@ -78,7 +80,8 @@ TEST(Ports, AreAskedAllAtOnce) {
   std::vector<Port> ports;
   for (const Pty& pty : silent) ports.push_back({pty.path(), pty.path(), false});
   const auto begun = std::chrono::steady_clock::now();
-  const auto found = find_robots(ports, std::chrono::seconds(2));
+  SharedPorts shared;
+  const auto found = find_robots(shared, ports, std::chrono::seconds(2));
   // One after the other they cannot take less.
   EXPECT_LT(std::chrono::steady_clock::now() - begun, 8 * std::chrono::seconds(2));
   ASSERT_EQ(found.size(), ports.size());

@@ -17,6 +17,7 @@
 #include "host/robot/client/client.hpp"
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/sharing/port_socket.hpp"
+#include "host/robot/sharing/relay_server.hpp"
 #include "tests/support/links/pty.hpp"
 #include "tests/support/programs/served_robot.hpp"
 
@@ -40,13 +41,22 @@ class SharedPortOfTheSystem : public testing::Test {
   }
   bool somebody_listens() const { return static_cast<bool>(connect_to(key(), seconds(1)).connection); }
 
-  std::string why_not() const {
+  std::string why_not() {
     try {
-      open_shared_port(pty.path());
+      ports.open(pty.path());
     } catch (const Error& error) {
       return error.what();
     }
     return "opened";
+  }
+
+  bool is_free() const {
+    try {
+      open_transport(pty.path());
+    } catch (const Error&) {
+      return false;
+    }
+    return true;
   }
 
   /// A child process that holds the port, reports it and waits to be ended.
@@ -56,7 +66,7 @@ class SharedPortOfTheSystem : public testing::Test {
     const pid_t child = ::fork();
     if (child == 0) {
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that fails leaves nobody behind
-      const auto transport = open_shared_port(pty.path());
+      const auto transport = ports.open(pty.path());
       const char byte = 1;
       if (::write(ready[1], &byte, 1) == 1) ::pause();
       ::_exit(0);
@@ -69,13 +79,14 @@ class SharedPortOfTheSystem : public testing::Test {
   }
 
   Pty pty;
+  SharedPorts ports;
 };
 
 TEST_F(SharedPortOfTheSystem, TheSecondProgramWorksAsIfItHadThePort) {
   const ServedRobot robot(pty.master());
-  Client first(open_shared_port(pty.path()));
+  Client first(ports.open(pty.path()));
   first.connect();
-  Client second(open_shared_port(pty.path()));
+  Client second(ports.open(pty.path()));
   EXPECT_EQ(second.connect().robot_name.view(), "astro");
   EXPECT_EQ(second.request(protocol::GetParameterInfo{2}).name.view(), "b");
   EXPECT_EQ(first.request(protocol::GetParameterInfo{0}).name.view(), "c_R");
@@ -93,7 +104,7 @@ int as_another_user(const std::function<int()>& work) {
 
 TEST_F(SharedPortOfTheSystem, AProgramOfAnotherUserIsNotServed) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can be somebody else for a moment";
-  const auto port = open_shared_port(pty.path());
+  const auto port = ports.open(pty.path());
   EXPECT_EQ(as_another_user([&] {
               const HolderConnection served = connect_to(key(), seconds(1));
               return served.connection ? 1 : 0;
@@ -119,7 +130,7 @@ TEST_F(SharedPortOfTheSystem, ANameThatAProgramOfAnotherUserHoldsIsSaidAndNotBel
   std::string said;
   {
     const auto port =
-        open_shared_port(pty.path(), kDefaultBaud, [&](const Remark& remark) { said = remark.sentence; });
+        ports.open(pty.path(), kDefaultBaud, [&](const Remark& remark) { said = remark.sentence; });
     EXPECT_THAT(said, HasSubstr("no other program can stop or watch this robot"));
   }
   for (const int end : {ready[0], ready[1], done[0], done[1]}) ::close(end);
@@ -129,19 +140,19 @@ TEST_F(SharedPortOfTheSystem, ANameThatAProgramOfAnotherUserHoldsIsSaidAndNotBel
 TEST_F(SharedPortOfTheSystem, IsFoundWhateverTheEnvironmentSays) {
   const ServedRobot robot(pty.master());
   ::setenv("XDG_RUNTIME_DIR", "/nonexistent", 1);
-  Client first(open_shared_port(pty.path()));
+  Client first(ports.open(pty.path()));
   first.connect();
   ::unsetenv("XDG_RUNTIME_DIR");
-  Client second(open_shared_port(pty.path()));
+  Client second(ports.open(pty.path()));
   EXPECT_EQ(second.connect().robot_name.view(), "astro");
 }
 
 TEST_F(SharedPortOfTheSystem, TheSocketGoesWithTheProgram) {
   {
-    const auto port = open_shared_port(pty.path());
+    const auto port = ports.open(pty.path());
     EXPECT_TRUE(somebody_listens());
   }
-  // The check was a connection, for which a process may be left behind until it notices that it has ended.
+  // The check was a connection, for which the port is served until its end is noticed.
   const auto end = std::chrono::steady_clock::now() + seconds(10);
   while (somebody_listens() && std::chrono::steady_clock::now() < end) ::usleep(20'000);
   EXPECT_FALSE(somebody_listens());
@@ -149,15 +160,15 @@ TEST_F(SharedPortOfTheSystem, TheSocketGoesWithTheProgram) {
 
 TEST_F(SharedPortOfTheSystem, AGuestThatIsTurnedAwayReadsWhyThoughItGoesOnWriting) {
   const ServedRobot robot(pty.master());
-  Client first(open_shared_port(pty.path()));
+  Client first(ports.open(pty.path()));
   first.connect();
   std::vector<std::unique_ptr<Client>> many;
   for (int i = 0; i < 32; ++i) {
-    many.push_back(std::make_unique<Client>(open_shared_port(pty.path())));
+    many.push_back(std::make_unique<Client>(ports.open(pty.path())));
     many.back()->connect();
     many.back()->request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
   }
-  Client last(open_shared_port(pty.path()));
+  Client last(ports.open(pty.path()));
   last.connect();
   try {
     last.request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
@@ -174,9 +185,9 @@ TEST_F(SharedPortOfTheSystem, AnExclusiveHolderIsSaidToUseThePort) {
 
 TEST_F(SharedPortOfTheSystem, ALostLineIsALostLinkForEverybody) {
   ServedRobot robot(pty.master());
-  Client first(open_shared_port(pty.path()));
+  Client first(ports.open(pty.path()));
   first.connect();
-  Client second(open_shared_port(pty.path()));
+  Client second(ports.open(pty.path()));
   second.connect();
   robot.end();
   pty.hang_up();
@@ -193,7 +204,7 @@ TEST_F(SharedPortOfTheSystem, ALostLineIsALostLinkForEverybody) {
 TEST_F(SharedPortOfTheSystem, AKilledHolderIsNamedAndItsPlaceTaken) {
   const ServedRobot robot(pty.master());
   const pid_t holder = holder_in_a_child();
-  Client client(open_shared_port(pty.path()));
+  Client client(ports.open(pty.path()));
   client.connect();
   ::kill(holder, SIGKILL);
   ::waitpid(holder, nullptr, 0);
@@ -207,14 +218,14 @@ TEST_F(SharedPortOfTheSystem, AKilledHolderIsNamedAndItsPlaceTaken) {
   }
   client.reconnect(seconds(5));
   EXPECT_EQ(client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
-  Client next(open_shared_port(pty.path()));
+  Client next(ports.open(pty.path()));
   next.connect();
 }
 
 TEST_F(SharedPortOfTheSystem, AStoppedHolderIsNamedWithinBoundedTime) {
   const ServedRobot robot(pty.master());
   const pid_t holder = holder_in_a_child();
-  Client client(open_shared_port(pty.path()));
+  Client client(ports.open(pty.path()));
   client.connect();
   ::kill(holder, SIGSTOP);
   ::waitpid(holder, nullptr, WUNTRACED);
@@ -233,38 +244,52 @@ TEST_F(SharedPortOfTheSystem, AStoppedHolderIsNamedWithinBoundedTime) {
 
 TEST_F(SharedPortOfTheSystem, AHolderThatEndsLeavesTheOthersTheirPort) {
   const ServedRobot robot(pty.master());
-  std::optional<Client> first(open_shared_port(pty.path()));
+  std::optional<Client> first(ports.open(pty.path()));
   first->connect();
-  Client second(open_shared_port(pty.path()));
+  Client second(ports.open(pty.path()));
   second.connect();
   first.reset();
+  EXPECT_EQ(second.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed) << "while it still runs";
+  ports.leave_to_others();
   EXPECT_EQ(second.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
-  Client third(open_shared_port(pty.path()));
+  Client third(ports.open(pty.path()));
   EXPECT_EQ(third.connect().robot_name.view(), "astro") << "still served";
+}
+
+TEST_F(SharedPortOfTheSystem, AServerThatIsMerelyDestroyedTellsItsGuestsAndLeavesNoProcessBehind) {
+  const ServedRobot robot(pty.master());
+  std::optional<RelayServer> server(SharedLine{open_line(pty.path(), kDefaultBaud), listen_at(key())});
+  Client guest(ports.open(pty.path()));
+  guest.connect();
+  server.reset();
+  EXPECT_TRUE(is_free()) << "although the guest has not gone";
+  EXPECT_FALSE(somebody_listens());
+  try {
+    guest.pump(seconds(5));
+    FAIL();
+  } catch (const LinkLost& lost) {
+    EXPECT_EQ(lost.what(), "lost " + pty.path() + ": the program that held the port has ended");
+  }
 }
 
 TEST_F(SharedPortOfTheSystem, WhatServesTheOthersEndsWithTheLastOfThem) {
   const ServedRobot robot(pty.master());
-  {
-    std::optional<Client> first(open_shared_port(pty.path()));
-    first->connect();
-    Client second(open_shared_port(pty.path()));
-    second.connect();
-    first.reset();
-    second.request(protocol::GetStatus{});
-  }
-  const auto free = [&] {
-    try {
-      open_transport(pty.path());
-    } catch (const Error&) {
-      return false;
+  for (const bool program_ends : {false, true}) {
+    {
+      std::optional<Client> first(ports.open(pty.path()));
+      first->connect();
+      Client second(ports.open(pty.path()));
+      second.connect();
+      first.reset();
+      if (program_ends) ports.leave_to_others();
+      second.request(protocol::GetStatus{});
+      EXPECT_FALSE(is_free());
     }
-    return true;
-  };
-  const auto end = std::chrono::steady_clock::now() + seconds(10);
-  while (!free() && std::chrono::steady_clock::now() < end) ::usleep(2000);
-  EXPECT_TRUE(free());
-  EXPECT_FALSE(somebody_listens());
+    const auto end = std::chrono::steady_clock::now() + seconds(10);
+    while (!is_free() && std::chrono::steady_clock::now() < end) ::usleep(2000);
+    EXPECT_TRUE(is_free());
+    EXPECT_FALSE(somebody_listens());
+  }
 }
 
 TEST_F(SharedPortOfTheSystem, ALoopbackAddressIsSharedLikeAPort) {
@@ -280,9 +305,9 @@ TEST_F(SharedPortOfTheSystem, ALoopbackAddressIsSharedLikeAPort) {
   const std::string name = ":" + std::to_string(ntohs(address.sin_port));
   {
     ServedRobot robot = ServedRobot::accepting(listener);
-    Client first(open_shared_port("tcp:localhost" + name));
+    Client first(ports.open("tcp:localhost" + name));
     first.connect();
-    Client second(open_shared_port("tcp:127.0.0.1" + name));  // another name of the same
+    Client second(ports.open("tcp:127.0.0.1" + name));  // another name of the same
     EXPECT_EQ(second.connect().robot_name.view(), "astro");
     EXPECT_EQ(second.request(protocol::GetParameterInfo{2}).name.view(), "b");
     robot.end();
