@@ -59,7 +59,7 @@ set(ASTRO_LAYERS
   "host/robot/parameters        : common host/base host/robot/client"
   "host/robot/port              : host/base"
   "host/robot/sharing           : common host/base host/robot/port"
-  "host/simulation/robot        : firmware/app hal/sim host/recording host/robot/port host/truth/source"
+  "host/simulation/robot        : firmware/app hal/sim host/base host/recording host/robot/port host/truth/source"
   "host/simulation/server       : host/base host/recording host/simulation/robot host/truth/source host/truth/trackers"
   "host/simulation/study        : host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/experiment/analysis host/experiment/drive host/recording host/robot/motion host/robot/parameters host/simulation/robot"
   "host/truth/files             : host/base host/truth/source"

@@ -61,51 +61,13 @@ std::optional<simulation::RuntimeLink> link_in_runtime_folder(const fs::path& pt
   }
 }
 
-struct WiringFault {
-  const char* name;
-  bool sim::Wiring::*flag;
-};
-
-constexpr WiringFault kWiringFaults[] = {
-    {"left-motor-reversed", &sim::Wiring::left_motor_reversed},
-    {"right-motor-reversed", &sim::Wiring::right_motor_reversed},
-    {"motors-swapped", &sim::Wiring::motors_swapped},
-    {"left-motor-dead", &sim::Wiring::left_motor_dead},
-    {"right-motor-dead", &sim::Wiring::right_motor_dead},
-    {"left-encoder-reversed", &sim::Wiring::left_encoder_reversed},
-    {"right-encoder-reversed", &sim::Wiring::right_encoder_reversed},
-    {"encoders-swapped", &sim::Wiring::encoders_swapped},
-    {"left-encoder-dead", &sim::Wiring::left_encoder_dead},
-    {"right-encoder-dead", &sim::Wiring::right_encoder_dead},
-    {"left-channel-lost", &sim::Wiring::left_channel_lost},
-    {"right-channel-lost", &sim::Wiring::right_channel_lost},
-};
-
-std::string wiring_fault_names() {
-  std::string names;
-  for (const WiringFault& fault : kWiringFaults)
-    names += (names.empty() ? "" : ", ") + std::string(fault.name);
-  return names;
-}
-
-// Returns "" if the fault is known; else CLI11 shows the returned text.
-std::string apply_wiring_fault(sim::Wiring& wiring, const std::string& name) {
-  for (const WiringFault& fault : kWiringFaults) {
-    if (name != fault.name) continue;
-    wiring.*fault.flag = true;
-    return {};
-  }
-  return fmt::format("'{}' is not a wiring fault; choose from {}", name, wiring_fault_names());
-}
-
-void add_build_options(console::Command command, sim::Config& robot) {
+void add_build_options(console::Command command, simulation::RobotOptions& robot) {
   command
-      .add_option_function(
-          "--wiring", [](const std::vector<std::string>&) {},
-          "built with this fault: " + wiring_fault_names())
+      .add_option("--wiring", robot.wiring_faults,
+                  "built with this fault: " + simulation::wiring_fault_names())
       .type_name("FAULT,...")
       .delimiter(',')
-      .check([&robot](const std::string& name) { return apply_wiring_fault(robot.wiring, name); });
+      .check(simulation::wrong_wiring_fault);
   command
       .add_option("--counts-per-rev", robot.counts_per_motor_rev,
                   "true counts per motor revolution of the encoders")
@@ -117,7 +79,7 @@ void add_build_options(console::Command command, sim::Config& robot) {
   command.add_flag("--on-stand", robot.on_stand, "with the wheels off the ground");
 }
 
-void add_robot_options(console::Command command, sim::Config& robot) {
+void add_robot_options(console::Command command, simulation::RobotOptions& robot) {
   add_ranged(command, "--true-wheelbase", robot.true_wheelbase_m, "wheelbase that the robot really has, in m",
              "M", 0.05, 2, "m");
   add_ranged(command, "--true-ed", robot.true_ed, "true ratio of the wheel diameters, right over left",
@@ -201,16 +163,6 @@ void add_tracker_options(console::Command command, simulation::NetworkTrackerCon
                    "what goes to the network goes also to other computers");
 }
 
-/// The same at every start, and another one for each robot: it is where the robot keeps its parameters, or else where it is.
-std::uint64_t serial_number_of(const simulation::ServerConfig& server) {
-  const fs::path& place = server.flash.empty() ? server.pty : server.flash;
-  const fs::path folder = fs::weakly_canonical(fs::absolute(place).parent_path());
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-  for (const char c : (folder / place.filename()).string())
-    hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
-  return hash;
-}
-
 constexpr Advice kServedRobotAdvice[] = {
     {simulation::ServerProblem::path_in_use, ": stop it or choose another --pty"},
     {simulation::ServerProblem::path_taken, ": choose another path for --pty"},
@@ -219,14 +171,6 @@ constexpr Advice kServedRobotAdvice[] = {
 };
 
 }  // namespace
-
-// Wheels and wheelbase have the errors of the robot of the reference measurements.
-sim::Config reference_robot() {
-  sim::Config robot;
-  robot.true_ed = 1.00416;
-  robot.true_wheelbase_m = 0.99521 * robot.nominal_wheelbase_m;
-  return robot;
-}
 
 void prepare(SimOptions& options, std::size_t flash_bytes) {
   const simulation::NetworkTrackerConfig& tracker = options.server.tracker;
@@ -240,7 +184,6 @@ void prepare(SimOptions& options, std::size_t flash_bytes) {
   check_folder("--pty", options.server.pty);
   check_folder("--usb-pty", options.server.second_pty);
   check_flash(options.server.flash, flash_bytes);
-  options.robot.serial_number = serial_number_of(options.server);
   remove_dead_link(options.server.pty);
   remove_dead_link(options.server.second_pty);
 }

@@ -9,12 +9,9 @@
 /// What `astrolabe sim` and `astrolabe-emulator` have in common.
 namespace astro::commands {
 
-/// A robot whose wheels and wheelbase have the errors of the robot of the reference measurements.
-sim::Config reference_robot();
-
 struct SimOptions {
   simulation::ServerConfig server;
-  sim::Config robot = reference_robot();
+  simulation::RobotOptions robot;
   simulation::MocapConfig mocap;
 };
 

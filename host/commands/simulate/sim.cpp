@@ -33,7 +33,7 @@ void publish_in_ros2(Options& options) {
 
 void run(const Options& wanted) {
   Options options = wanted;
-  prepare(options, sim::Flash::kBytes);
+  prepare(options, simulation::flash_bytes());
   if (!options.ros_topic.empty()) publish_in_ros2(options);
   simulation::Server server(options.robot, options.mocap, options.server);
   serve(server, "a simulated robot");
@@ -50,9 +50,7 @@ void add_sim(console::Command app) {
       .add_option_function(
           "--wall",
           [options](const std::vector<std::string>& words) {
-            const double gap_m = *number_in(words.front());
-            options->robot.wall =
-                sim::WallConfig{.x_m = options->robot.body.ahead_m + gap_m, .unevenness_m = 3e-4};
+            options->robot.wall_ahead_m = number_in(words.front());
           },
           "a straight wall across its way, so many m before its front")
       .type_name("M")

@@ -26,9 +26,8 @@ void run(const fs::path& hex, commands::SimOptions& options) {
                           fs::weakly_canonical(fs::absolute(options.server.pty).parent_path()) /
                               options.server.pty.filename())
     throw Error("--usb-pty must be another path than --pty");
-  options.robot.flash = simulation::load_flash(options.server.flash);
   simulation::Server server(
-      std::make_unique<emulator::ServedTeensy>(hex, options.robot, options.mocap, options.server.pty),
+      std::make_unique<emulator::ServedTeensy>(hex, options.robot, options.mocap, options.server),
       options.server);
   if (!options.server.second_pty.empty())
     console::say("its USB port is at " + options.server.second_pty.string());

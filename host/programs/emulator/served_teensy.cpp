@@ -49,12 +49,12 @@ std::optional<std::string> HalfKay::receive() {
   return std::exchange(received_, {});
 }
 
-ServedTeensy::ServedTeensy(fs::path hex, sim::Config config, const simulation::MocapConfig& mocap,
-                           fs::path pty)
-    : config_(std::move(config)),
+ServedTeensy::ServedTeensy(const fs::path& hex, const simulation::RobotOptions& robot,
+                           const simulation::MocapConfig& mocap, const simulation::ServerConfig& server)
+    : config_(config_of(robot, server)),
       mocap_(mocap),
-      fifo_(beside(pty, ".halfkay")),
-      flashed_(beside(pty, ".flashed.hex")) {
+      fifo_(beside(server.pty, ".halfkay")),
+      flashed_(beside(server.pty, ".flashed.hex")) {
   std::error_code none;
   if (fs::is_fifo(fifo_, none))
     fs::remove(fifo_, none);  // left by a killed program; a loader would wait for it

@@ -10,6 +10,7 @@
 #include "host/base/descriptor.hpp"
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/simulation/server/served_robot.hpp"
+#include "host/simulation/server/server.hpp"
 
 namespace astro::emulator {
 
@@ -35,12 +36,12 @@ class HalfKay {
 };
 
 /// An emulated robot behind ptys: port 0 is LPUART6, port 1 is USB. In its boot loader it waits for an image
-/// at `beside` + ".halfkay"; flashing keeps the sectors of the parameters, as on a Teensy.
+/// at the path of its pty + ".halfkay"; flashing keeps the sectors of the parameters, as on a Teensy.
 class ServedTeensy : public simulation::ServedRobot {
  public:
-  /// Errors as Teensy.
-  ServedTeensy(std::filesystem::path hex, sim::Config config, const simulation::MocapConfig& mocap,
-               std::filesystem::path beside);
+  /// The robot of config_of(robot, server). Errors as that and Teensy.
+  ServedTeensy(const std::filesystem::path& hex, const simulation::RobotOptions& robot,
+               const simulation::MocapConfig& mocap, const simulation::ServerConfig& server);
   ~ServedTeensy() override;
 
   void step() override;

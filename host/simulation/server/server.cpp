@@ -55,6 +55,15 @@ sim::Config with_flash(sim::Config config, const fs::path& path) {
   return config;
 }
 
+std::uint64_t serial_number_of(const ServerConfig& server) {
+  const fs::path& place = server.flash.empty() ? server.pty : server.flash;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(place).parent_path());
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+  for (const char c : (folder / place.filename()).string())
+    hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
+  return hash;
+}
+
 fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
 
 class ServedVirtualRobot : public ServedRobot {
@@ -146,6 +155,15 @@ std::vector<std::uint8_t> load_flash(const fs::path& path) {
                 ServerProblem::flash_is_link, {path.string()});
   return fs::exists(status) ? load_file(path, kMostFlashBytes) : std::vector<std::uint8_t>{};
 }
+
+sim::Config config_of(const RobotOptions& robot, const ServerConfig& server) {
+  sim::Config config = with_flash(config_of(robot), server.flash);
+  config.serial_number = serial_number_of(server);
+  return config;
+}
+
+Server::Server(const RobotOptions& robot, const MocapConfig& mocap, const ServerConfig& config)
+    : Server(std::make_unique<ServedVirtualRobot>(config_of(robot, config), mocap), config) {}
 
 Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
     : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/simulation/robot/robot_options.hpp"
 #include "host/simulation/robot/virtual_robot.hpp"
 #include "host/simulation/server/network_tracker.hpp"
 #include "host/simulation/server/pace.hpp"
@@ -35,6 +36,11 @@ struct ServerConfig {
 
 /// The content of a flash file; empty if there is none. Throws astro::Error if it cannot be read.
 std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
+
+/// The robot as this server starts it: its flash holds load_flash(server.flash), and its serial number is the
+/// same at every start and another one for each robot, because it follows from where the robot keeps its
+/// parameters, or else from where it is. Throws as config_of(robot) and load_flash().
+sim::Config config_of(const RobotOptions& robot, const ServerConfig& server);
 
 /// One port of a robot at one pty. The pty exists while the robot's port does.
 class Channel {
@@ -75,6 +81,8 @@ class Server {
  public:
   /// A VirtualRobot. Throws astro::Error if a pty, the file of the flash or a port cannot be used.
   Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
+  /// The same of config_of(robot, config).
+  Server(const RobotOptions& robot, const MocapConfig& mocap, const ServerConfig& config);
   /// Another robot, whose flash holds load_flash(config.flash) already. Throws the same.
   Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config);
   ~Server();

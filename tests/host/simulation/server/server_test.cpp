@@ -363,5 +363,17 @@ TEST(Flash, ThatIsALinkIsRefusedAndNothingIsWrittenThroughOne) {
                 support::ThrowsTelling(ServerProblem::flash_is_link, (folder.path() / name).string()));
 }
 
+TEST(Server, ARobotIsWhereItsParametersAreOrElseWhereItIs) {
+  const test::TemporaryFolder folder;
+  const auto identity = [&](const char* pty, const char* flash) {
+    return sim::identity_of(
+        config_of({}, {.pty = folder.path() / pty, .flash = *flash == '\0' ? "" : folder.path() / flash}));
+  };
+  EXPECT_EQ(identity("a.pty", ""), identity("a.pty", "")) << "started again";
+  EXPECT_NE(identity("a.pty", ""), identity("b.pty", ""));
+  EXPECT_EQ(identity("a.pty", "flash"), identity("b.pty", "flash")) << "moved to another port";
+  EXPECT_NE(identity("a.pty", "flash"), identity("a.pty", "other"));
+}
+
 }  // namespace
 }  // namespace astro::simulation
