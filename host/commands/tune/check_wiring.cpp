@@ -1,20 +1,20 @@
 #include "host/commands/tune/check_wiring.hpp"
-#include "host/motor/bench/identify.hpp"
-#include "host/motor/model/motor_model.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <array>
 #include <charconv>
-#include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <tuple>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/console/console.hpp"
@@ -22,21 +22,25 @@
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/drive/change_guard.hpp"
-#include "host/motor/bench/roll_by_hand.hpp"
-#include "host/motor/bench/wiring_probe.hpp"
-#include "host/robot/parameters/upload.hpp"
+#include "host/motor/bench/identify.hpp"
+#include "host/motor/commissioning/wiring_check.hpp"
+#include "host/motor/model/motor_model.hpp"
 
 namespace astro::commands {
 namespace {
 
-using motor::Probe;
-using motor::Roll;
 using motor::Sighting;
 using motor::WiringVerdict;
 
-constexpr double kRolledTurns = 10;  // that a person is asked for
+struct WiringOptions {
+  ConnectionOptions connection;
+  double max_voltage_V = 4;
+  std::array<std::string, 2> saw;  // by motor; empty: ask
+  bool no_look = false, roll = false, upload = false, yes = false, json = false;
+  motor::RolledLength rolled;  // neither: ask
+};
 
-bool somebody_is_there() { return isatty(STDIN_FILENO) == 1; }
+constexpr double kRolledTurns = 10;  // that a person is asked for
 
 void check(const WiringOptions& options) {
   if (options.saw[0].empty() != options.saw[1].empty())
@@ -44,7 +48,7 @@ void check(const WiringOptions& options) {
         "--saw-left and --saw-right go together: what turned for each of the two motors");
   if (options.no_look && !options.saw[0].empty())
     throw console::WrongUsage("--no-look and --saw-left, --saw-right exclude each other");
-  if ((options.rolled_distance_m || options.rolled_turns) && !options.roll)
+  if ((options.rolled.distance_m || options.rolled.turns) && !options.roll)
     throw console::WrongUsage("--rolled-distance and --rolled-turns answer --roll: give it too");
 }
 
@@ -64,30 +68,17 @@ std::string ask_or_interrupt(const std::string& prompt) {
   }
 }
 
-// One session for each motor: nothing is armed while a question is open.
-Probe probe(robot::Client& client, const motor::RobotFacts& facts, Side motor, double most_V) {
-  motor::Bench bench(client, facts);
-  robot::DriveSession session(client, drive_hooks());
-  return probe_motor(bench, session, motor, most_V);
+motor::Look look(Side motor, const WiringOptions& options) {
+  if (const std::string& saw = options.saw[at(motor)]; !saw.empty()) return {sighting_from(saw)};
+  if (options.no_look || !console::stdin_is_terminal()) return {};
+  const std::string answer = ask_or_interrupt(
+      "Which wheel turned, and which way? [lf, lb, rf, rb: left/right, forward/backward; none; again] ");
+  const std::optional<Sighting> seen = sighting_from(answer);
+  if (!seen && answer != "again") console::say(fmt::format("'{}' is none of these: once more", answer));
+  return {seen, !seen};
 }
 
-/// What was seen for one motor; turns it again if it was missed.
-Probe probe_and_look(robot::Client& client, const motor::RobotFacts& facts, Side motor,
-                     const WiringOptions& options) {
-  while (true) {
-    console::say(fmt::format("driving the {} motor forward ...", name(motor)));
-    Probe result = probe(client, facts, motor, options.max_voltage_V);
-    if (!options.saw[at(motor)].empty()) result.seen = sighting_from(options.saw[at(motor)]);
-    if (options.no_look || result.seen || !somebody_is_there()) return result;
-    const std::string answer = ask_or_interrupt(
-        "Which wheel turned, and which way? [lf, lb, rf, rb: left/right, forward/backward; none; again] ");
-    result.seen = sighting_from(answer);
-    if (result.seen) return result;
-    if (answer != "again") console::say(fmt::format("'{}' is none of these: once more", answer));
-  }
-}
-
-std::string counted(const Probe& probe) {
+std::string counted(const motor::Probe& probe) {
   return fmt::format("up to {:.1f} V: left encoder {:+}, right encoder {:+}", probe.voltage_V,
                      probe.encoders[0].counts, probe.encoders[1].counts);
 }
@@ -111,60 +102,81 @@ Json verdict_json(const WiringVerdict& verdict) {
           {"needs_eyes", verdict.needs_eyes}};
 }
 
-/// True if they are in force.
-bool offer(robot::Client& client, const std::map<std::string, double>& parameters,
-           const WiringOptions& options) {
-  const experiment::ParameterValues values(parameters.begin(), parameters.end());
-  const auto changes = robot::changes(robot::RemoteParameters::fetch(client), values);
-  if (changes.empty()) return true;
+bool wants_upload_of(const std::vector<robot::Change>& changes, const WiringOptions& options) {
   console::say(console::table(experiment::side_by_side(changes), "llrrr"));
-  if (!options.upload && !(somebody_is_there() && console::confirm("Load these into the robot?")))
-    return false;
-  const robot::UploadReport done = robot::upload(client, values);
-  if (done.active != robot::ActiveSet::new_set) throw Error(done.remark());
-  console::say(in_words(done.remark()));
-  return true;
-}
-
-WiringVerdict look_at_wires(robot::Client& client, const motor::RobotFacts& facts,
-                            const WiringOptions& options) {
-  std::array<Probe, 2> probes;
-  for (const Side motor : kSides) {
-    probes[at(motor)] = probe_and_look(client, facts, motor, options);
-    console::say("  " + counted(probes[at(motor)]));
-  }
-  return judge_wiring(probes, facts.polarities);
+  return options.upload || (console::stdin_is_terminal() && console::confirm("Load these into the robot?"));
 }
 
 // "2.26", "2.26m" or "10t".
-bool understand(const std::string& answer, Roll& roll) {
+bool understand(const std::string& answer, motor::RolledLength& length) {
   double value = 0;
   const auto [end, problem] = std::from_chars(answer.data(), answer.data() + answer.size(), value);
   const std::string unit(end, static_cast<const char*>(answer.data() + answer.size()));
   if (problem != std::errc() || !(value > 0)) return false;
-  if (unit == "t" || unit == " t" || unit == " turns") roll.turns = value;
-  if (unit.empty() || unit == "m" || unit == " m") roll.distance_m = value;
-  return roll.turns || roll.distance_m;
+  if (unit == "t" || unit == " t" || unit == " turns") length.turns = value;
+  if (unit.empty() || unit == "m" || unit == " m") length.distance_m = value;
+  return length.turns || length.distance_m;
 }
 
-Roll ask_how_far(const motor::RobotFacts& facts) {
+motor::RolledLength ask_how_far(const motor::RobotFacts& facts) {
   const double metres = kRolledTurns * std::numbers::pi * facts.wheel_diameter_m;
   console::say(fmt::format(
       "put the robot on the floor and roll it straight on by hand for {:.0f} wheel turns, about {:.2f} m",
       kRolledTurns, metres));
-  Roll roll;
-  while (!understand(ask_or_interrupt("How far was it? [metres as 2.26, or wheel turns as 10t] "), roll))
+  motor::RolledLength length;
+  while (!understand(ask_or_interrupt("How far was it? [metres as 2.26, or wheel turns as 10t] "), length))
     console::say("that is no length: once more");
-  return roll;
+  return length;
+}
+
+motor::WiringHooks hooks_for(const WiringOptions& options) {
+  motor::WiringHooks hooks;
+  hooks.drive = drive_hooks();
+  hooks.driving = [](Side motor) {
+    console::say(fmt::format("driving the {} motor forward ...", name(motor)));
+  };
+  hooks.look = [&options](Side motor) { return look(motor, options); };
+  hooks.driven = [](const motor::Probe& probe) { console::say("  " + counted(probe)); };
+  hooks.load = [&options](const auto& changes) { return wants_upload_of(changes, options); };
+  hooks.uploaded = [](const Remark& remark) { console::say(in_words(remark)); };
+  if (options.roll)
+    hooks.roll = [&options](const motor::RobotFacts& facts, const std::function<void()>& wait_until_rolled) {
+      if (!options.rolled.distance_m && !options.rolled.turns) return ask_how_far(facts);
+      console::say("roll the robot now ...");
+      wait_until_rolled();
+      return options.rolled;
+    };
+  if (options.json) return hooks;
+  hooks.wires_judged = show;
+  hooks.roll_judged = [](const motor::RollVerdict& rolled) { print(in_words(rolled.finding)); };
+  return hooks;
+}
+
+Json result_json(const motor::WiringResult& result) {
+  Json json = verdict_json(result.wires);
+  if (result.roll)
+    json["roll"] = {{"left", result.roll->ratio[0]},
+                    {"right", result.roll->ratio[1]},
+                    {"agrees", result.roll->agrees},
+                    {"sentence", in_words(result.roll->finding)},
+                    {"parameters", result.roll->parameters}};
+  json["loaded"] = result.in_force && (!result.wires.parameters.empty() || result.roll);
+  return json;
 }
 
 // What is still to be done, as the error that ends the command.
-void conclude(const WiringVerdict& verdict, bool loaded) {
-  if (verdict.needs_hands)
-    throw Error("the wiring has to be changed by hand: see above, and run 'astrolabe check-wiring' again");
-  if (!loaded) throw Error("nothing was changed: --upload loads the corrected parameters");
-  if (verdict.needs_eyes && !verdict.findings.empty())
-    throw Error("nothing was changed: say with --saw-left and --saw-right, or at a terminal, what turned");
+void conclude(const motor::WiringResult& result) {
+  using Next = motor::WiringResult::Next;
+  switch (result.next()) {
+    case Next::change_wires:
+      throw Error("the wiring has to be changed by hand: see above, and run 'astrolabe check-wiring' again");
+    case Next::load_parameters:
+      throw Error("nothing was changed: --upload loads the corrected parameters");
+    case Next::look:
+      throw Error("nothing was changed: say with --saw-left and --saw-right, or at a terminal, what turned");
+    case Next::nothing:
+      break;
+  }
 }
 
 std::string sighting_words() { return "left-forward, left-backward, right-forward, right-backward or none"; }
@@ -186,11 +198,11 @@ void add_answers(console::Command command, WiringOptions& options) {
         .check(a_sighting());
   command.add_flag("--no-look", options.no_look, "nobody looks: judge by the counts alone");
   const console::Option metres = command
-                                     .add_option("--rolled-distance", options.rolled_distance_m,
+                                     .add_option("--rolled-distance", options.rolled.distance_m,
                                                  "answer to --roll, in m; waits for the robot to be rolled")
                                      .type_name("M")
                                      .check(console::positive("m"));
-  command.add_option("--rolled-turns", options.rolled_turns, "the same in wheel turns")
+  command.add_option("--rolled-turns", options.rolled.turns, "the same in wheel turns")
       .type_name("N")
       .check(console::positive(""))
       .excludes(metres);
@@ -202,24 +214,9 @@ void check_wiring(WiringOptions& options) {
   check(options);
   const auto client = connect_to_drive(options.connection);
   agree(options);
-  const auto facts = motor::facts_of(robot::RemoteParameters::fetch(*client));
-  const WiringVerdict verdict = look_at_wires(*client, facts, options);
-  Json json = verdict_json(verdict);
-  if (!options.json) show(verdict);
-  bool loaded = offer(*client, verdict.parameters, options);
-  if (options.roll && !verdict.needs_hands) {
-    const motor::RollVerdict rolled = roll(*client, facts, options);
-    json["roll"] = {{"left", rolled.ratio[0]},
-                    {"right", rolled.ratio[1]},
-                    {"agrees", rolled.agrees},
-                    {"sentence", in_words(rolled.finding)},
-                    {"parameters", rolled.parameters}};
-    if (!options.json) print(in_words(rolled.finding));
-    loaded = offer(*client, rolled.parameters, options) && loaded;
-  }
-  json["loaded"] = loaded && !(verdict.parameters.empty() && !json.contains("roll"));
-  if (options.json) print_json(json);
-  conclude(verdict, loaded);
+  const motor::WiringResult result = check_wires(*client, options.max_voltage_V, hooks_for(options));
+  if (options.json) print_json(result_json(result));
+  conclude(result);
 }
 
 constexpr Advice kCheckWiringAdvice[] = {
@@ -242,24 +239,6 @@ std::optional<Sighting> sighting_from(const std::string& word) {
                                                       {"none", {}}};
   const auto found = kWords.find(word);
   return found == kWords.end() ? std::nullopt : std::optional(found->second);
-}
-
-motor::RollVerdict roll(robot::Client& client, const motor::RobotFacts& facts, const WiringOptions& options) {
-  motor::Bench bench(client, facts);
-  const motor::Moment start = bench.fresh();
-  Roll answer;
-  if (options.rolled_distance_m || options.rolled_turns) {
-    console::say("roll the robot now ...");
-    wait_for_roll(bench, start, [&] {
-      client.pump(std::chrono::milliseconds(50));
-      console::check_interrupt();
-    });
-    answer.distance_m = options.rolled_distance_m;
-    answer.turns = options.rolled_turns;
-  } else {
-    answer = ask_how_far(facts);
-  }
-  return judge_roll(roll_since(bench, start, answer.distance_m, answer.turns));
 }
 
 void add_check_wiring(console::Command app) {

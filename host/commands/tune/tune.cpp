@@ -2,22 +2,44 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <filesystem>
 #include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
 
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
+#include "host/commands/shared/connection.hpp"
 #include "host/commands/tune/commands.hpp"
 #include "host/commands/tune/tune_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/experiment/drive/change_guard.hpp"
 #include "host/motor/bench/identify.hpp"
+#include "host/motor/commissioning/tune_motors.hpp"
 #include "host/report/page.hpp"
 
 namespace astro::commands {
 namespace {
+
+struct TuneOptions {
+  ConnectionOptions connection;
+  motor::TuningTask task;
+  bool on_ground = false;
+  std::string bandwidth;  // "6", "6Hz", "40rad/s"; empty: chosen
+  bool upload = false, yes = false, json = false;
+  std::filesystem::path out = "tune.html";
+};
+
+double radps_in(const std::string& bandwidth) {
+  if (bandwidth.empty()) return 0;
+  const double number = std::stod(bandwidth);
+  return bandwidth.ends_with("rad/s") ? number : 2 * std::numbers::pi * number;
+}
 
 console::Check a_bandwidth() {
   return [](std::string& text) -> std::string {
@@ -32,7 +54,7 @@ console::Check a_bandwidth() {
 
 void add_options(console::Command command, TuneOptions& options) {
   add_connection(command, options.connection);
-  const console::Option stand = command.add_flag("--on-stand", options.on_stand, "the wheels hang free");
+  const console::Option stand = command.add_flag("--on-stand", options.task.on_stand, "the wheels hang free");
   const console::Option ground =
       command.add_flag("--on-ground", options.on_ground, "the robot drives to and fro");
   stand.excludes(ground);
@@ -41,10 +63,10 @@ void add_options(console::Command command, TuneOptions& options) {
                   "of the speed loop, as 6, 6Hz or 40rad/s; default: the stiffest against loads")
       .type_name("HZ")
       .check(a_bandwidth());
-  add_ranged(command, "--max-voltage", options.max_voltage_V, "most that is put on a motor, in V", "V", 1, 50,
-             "V");
-  add_ranged(command, "--max-distance", options.max_distance_m, "on the ground: how far from its start, in m",
-             "M", 0.2, 50, "m")
+  add_ranged(command, "--max-voltage", options.task.voltage_V, "most that is put on a motor, in V", "V", 1,
+             50, "V");
+  add_ranged(command, "--max-distance", options.task.distance_m,
+             "on the ground: how far from its start, in m", "M", 0.2, 50, "m")
       .excludes(stand);
   command.add_flag("--upload", options.upload, "load the new values without asking, and measure again");
   add_yes(command, options.yes, "do not ask before the wheels turn; loads nothing without --upload");
@@ -53,28 +75,29 @@ void add_options(console::Command command, TuneOptions& options) {
 }
 
 void find_out_where(TuneOptions& options) {
-  if (options.on_stand || options.on_ground) return;
+  if (options.task.on_stand || options.on_ground) return;
   if (options.yes || isatty(STDIN_FILENO) != 1)
     throw console::WrongUsage(
         "say where the robot is: --on-stand (wheels hang free) or --on-ground (it drives by itself)");
   const std::string answer =
       console::ask("Do the wheels hang free, or is the robot on the ground? [free/ground] ");
-  options.on_stand = answer == "free" || answer == "f";
+  options.task.on_stand = answer == "free" || answer == "f";
   options.on_ground = answer == "ground" || answer == "g";
-  if (!options.on_stand && !options.on_ground) throw Error("nothing was measured: answer 'free' or 'ground'");
+  if (!options.task.on_stand && !options.on_ground)
+    throw Error("nothing was measured: answer 'free' or 'ground'");
 }
 
 void agree(const TuneOptions& options) {
   if (options.yes) return;
-  const double seconds = 15 + 4 * options.max_voltage_V;
+  const double seconds = options.task.duration_s();
   const std::string question =
-      options.on_stand
+      options.task.on_stand
           ? fmt::format("Both wheels will turn for about {:.0f} s, with up to {:g} V. Begin?", seconds,
-                        options.max_voltage_V)
+                        options.task.voltage_V)
           : fmt::format(
                 "The robot will drive to and fro by itself for about {:.0f} s, up to {:g} m from here "
                 "and with up to {:g} V. Is the floor free?",
-                seconds, options.max_distance_m, options.max_voltage_V);
+                seconds, options.task.distance_m, options.task.voltage_V);
   if (!console::confirm(question)) throw Error("nothing was measured");
 }
 
@@ -87,7 +110,24 @@ void check_out(const std::filesystem::path& out) {
   report::require_replaceable(out);
 }
 
-bool wants_upload(const TuneOptions& options, const TuneResult& result) {
+/// A bar while the motors are identified.
+motor::TuningHooks hooks_with(std::optional<console::Progress>& bar) {
+  motor::TuningHooks hooks;
+  hooks.drive = drive_hooks();
+  hooks.drive.notice = [&bar](const Remark& remark) {
+    if (bar) bar->clear();
+    console::say(in_words(remark));
+  };
+  hooks.progress = [&bar](double part) {
+    if (!bar) bar.emplace("measuring");
+    bar->show(part);
+  };
+  hooks.identified = [&bar](const motor::IdentifiedMotors&) { bar.reset(); };
+  hooks.uploaded = [](const Remark& remark) { console::say(in_words(remark)); };
+  return hooks;
+}
+
+bool wants_upload(const TuneOptions& options, const motor::TuningResult& result) {
   if (result.changes.empty()) {
     console::say("the robot holds these values already");
     return false;
@@ -97,11 +137,12 @@ bool wants_upload(const TuneOptions& options, const TuneResult& result) {
   return !options.yes && isatty(STDIN_FILENO) == 1 && console::confirm("Load these into the robot?");
 }
 
-void write_report(const TuneOptions& options, const TuneResult& result, const robot::Client& client) {
+void write_report(const TuneOptions& options, const motor::TuningResult& result,
+                  const robot::Client& client) {
   report::write_page(options.out, report::render_tuning_html(report_input(result, client)));
 }
 
-void conclude(const TuneOptions& options, const TuneResult& result) {
+void conclude(const TuneOptions& options, const motor::TuningResult& result) {
   const std::string path = std::filesystem::absolute(options.out).string();
   if (!options.json)
     return print(fmt::format("{}\n{}{}\nReport: {}", step_after_in_words(result), wrapped(verdict(result)),
@@ -116,11 +157,14 @@ void run(TuneOptions& options) {
   check_out(options.out);
   const auto client = connect_to_drive(options.connection);
   agree(options);
-  TuneResult result = measure(*client, options);
+  std::optional<console::Progress> bar;
+  const motor::TuningHooks hooks = hooks_with(bar);
+  options.task.bandwidth_radps = radps_in(options.bandwidth);
+  motor::TuningResult result = tune_motors(*client, options.task, hooks);
   write_report(options, result, *client);  // what was measured is kept, whatever comes
   if (!options.json) print(in_words(result));
   if (wants_upload(options, result)) {
-    load_and_measure_again(*client, result);
+    load_and_measure_again(*client, result, hooks);
     write_report(options, result, *client);
   }
   conclude(options, result);

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -28,7 +29,7 @@ std::string with_error(double value, double error) {
 
 std::string volts(const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : "-"; }
 
-std::string motor_table(const TuneResult& result) {
+std::string motor_table(const motor::TuningResult& result) {
   std::vector<std::vector<std::string>> rows{
       {"wheel", "kS [V]", "kV [Vs/m]", "kA [Vs^2/m]", "time constant", "breaks away", "residual"}};
   for (const Side side : kSides) {
@@ -48,7 +49,7 @@ std::string margins_in_words(const Margins& margins) {
                      hertz(margins.bandwidth_radps), degrees(margins.phase_margin_rad), margins.gain_margin);
 }
 
-report::StepLines lines(const TunedStep& step, Side side) {
+report::StepLines lines(const motor::TunedStep& step, Side side) {
   const motor::StepCourse& course = step.measured[at(side)];
   report::StepLines out;
   out.time_s = course.time_s;
@@ -60,7 +61,7 @@ report::StepLines lines(const TunedStep& step, Side side) {
   return out;
 }
 
-double error_of(const TuneResult& result, const std::string& parameter) {
+double error_of(const motor::TuningResult& result, const std::string& parameter) {
   for (const Side side : kSides) {
     const auto& error = result.motors.wheels[at(side)].fit.standard_error;
     if (parameter == std::string("kS_") + name(side)) return error.kS;
@@ -75,19 +76,30 @@ const char* stand_note() {
          "'astrolabe tune --on-ground' finds the others";
 }
 
-std::string steps_in_words(std::span<const TunedStep> steps) {
+struct TitledStep {
+  const char* title;
+  const motor::TunedStep& step;
+};
+
+std::array<TitledStep, 3> steps_of(const motor::TuningResult& result) {
+  return {{{"before", result.step_before},
+           {result.uploaded ? "after" : "with the new values", result.step_after},
+           {"a jump, new gains alone", result.jump}}};
+}
+
+std::string steps_in_words(std::span<const TitledStep> steps) {
   std::vector<std::vector<std::string>> rows{
       {"step", "wheel", "", "rise 10-90 %", "overshoot", "largest error", "rms error"}};
-  const auto add = [&](const std::string& title, Side side, const char* what, const StepFigures& figures) {
+  const auto add = [&](const char* title, Side side, const char* what, const StepFigures& figures) {
     rows.push_back({title, name(side), what, fmt::format("{:.0f} ms", 1e3 * figures.rise_s),
                     fmt::format("{:.1f} %", 100 * figures.overshoot),
                     fmt::format("{:.1f} mm/s", 1e3 * figures.worst_error_mps),
                     fmt::format("{:.1f} mm/s", 1e3 * figures.rms_error_mps)});
   };
-  for (const TunedStep& step : steps) {
+  for (const auto& [title, step] : steps) {
     for (const Side side : kSides) {
-      if (step.was_measured) add(step.title, side, "measured", figures(step.measured[at(side)]));
-      add(step.title, side, "predicted", figures(step.predicted[at(side)]));
+      if (step.was_measured) add(title, side, "measured", figures(step.measured[at(side)]));
+      add(title, side, "predicted", figures(step.predicted[at(side)]));
     }
   }
   return console::table(rows, "lllrrrr");
@@ -123,10 +135,10 @@ Json to_json(const motor::IdentifiedMotor& wheel) {
           {"windows", windows.size()}};
 }
 
-Json steps_json(const TuneResult& result) {
+Json steps_json(const motor::TuningResult& result) {
   Json steps = Json::array();
-  for (const TunedStep& step : result.steps) {
-    Json one{{"title", step.title}};
+  for (const auto& [title, step] : steps_of(result)) {
+    Json one{{"title", title}};
     for (const Side side : kSides) {
       if (step.was_measured) one[name(side)]["measured"] = to_json(figures(step.measured[at(side)]));
       one[name(side)]["predicted"] = to_json(figures(step.predicted[at(side)]));
@@ -138,7 +150,7 @@ Json steps_json(const TuneResult& result) {
 
 }  // namespace
 
-std::vector<std::string> notes(const TuneResult& result) {
+std::vector<std::string> notes(const motor::TuningResult& result) {
   std::vector<std::string> list;
   if (result.on_stand) list.emplace_back(stand_note());
   if (const auto ratio = motor::unlikely_kV_ratio(result.gains.mean, result.before))
@@ -149,15 +161,14 @@ std::vector<std::string> notes(const TuneResult& result) {
   return list;
 }
 
-std::string step_after_in_words(const TuneResult& result) {
-  return result.uploaded ? steps_in_words(std::span(result.steps).subspan(1, 1)) : "";
+std::string step_after_in_words(const motor::TuningResult& result) {
+  const auto steps = steps_of(result);
+  return result.uploaded ? steps_in_words(std::span(steps).subspan(1, 1)) : "";
 }
 
-std::string verdict(const TuneResult& result) {
+std::string verdict(const motor::TuningResult& result) {
   using Change = motor::StepVerdict::Change;
-  const TunedStep& next = result.steps[1];
-  const motor::StepVerdict judged =
-      judge_step(result.steps[0].measured, next.predicted, next.was_measured ? &next.measured : nullptr);
+  const motor::StepVerdict judged = result.verdict();
   std::string text = fmt::format(
       "Verdict: with the new values the wheels {} their set point {} before: rms error {:.1f} mm/s, before "
       "{:.1f}",
@@ -179,7 +190,7 @@ std::string verdict(const TuneResult& result) {
   return text;
 }
 
-std::string in_words(const TuneResult& result) {
+std::string in_words(const motor::TuningResult& result) {
   std::string text = motor_table(result);
   text += fmt::format(
       "\nloaded    kp {:.4g}, ki {:.4g}: {}\ndesigned  kp {:.4g}, ki {:.4g}: {}\n          at most "
@@ -187,12 +198,12 @@ std::string in_words(const TuneResult& result) {
       result.before.kp, result.before.ki, margins_in_words(result.gains.margins_before),
       result.gains.design.kp, result.gains.design.ki, margins_in_words(result.gains.design.margins),
       hertz(result.gains.design.largest_bandwidth_radps), 1e3 * result.gains.design.noise_V);
-  text += steps_in_words(result.steps);
+  text += steps_in_words(steps_of(result));
   for (const std::string& note : notes(result)) text += fmt::format("\n{}\n", note);
   return text;
 }
 
-Json to_json(const TuneResult& result) {
+Json to_json(const motor::TuningResult& result) {
   Json changes = Json::array();
   for (const robot::Change& change : result.changes)
     changes.push_back({{"name", change.name},
@@ -219,7 +230,7 @@ Json to_json(const TuneResult& result) {
       {"uploaded", result.uploaded}};
 }
 
-report::TuningInput report_input(const TuneResult& result, const robot::Client& client) {
+report::TuningInput report_input(const motor::TuningResult& result, const robot::Client& client) {
   const auto nan = std::numeric_limits<double>::quiet_NaN();
   report::TuningInput input;
   input.title = fmt::format("Tuning of {}", client.robot().robot_name.view());
@@ -236,8 +247,8 @@ report::TuningInput report_input(const TuneResult& result, const robot::Client& 
       {"Loaded before", margins_in_words(result.gains.margins_before)},
       {"Observer", fmt::format("{:.0f} rad/s; allows at most {:.1f} Hz", result.before.observer_radps,
                                hertz(result.gains.design.largest_bandwidth_radps))}};
-  for (const TunedStep& step : result.steps)
-    input.steps.push_back({step.title, {lines(step, Side::left), lines(step, Side::right)}});
+  for (const auto& [title, step] : steps_of(result))
+    input.steps.push_back({title, {lines(step, Side::left), lines(step, Side::right)}});
   input.description = {
       {"Robot", std::string(client.robot().robot_name.view())},
       {"Robot id", hex_id(client.robot())},

@@ -34,10 +34,11 @@ void wait_for_roll(Bench& bench, const Moment& start, const std::function<void()
   }
 }
 
-Roll roll_since(Bench& bench, const Moment& start, std::optional<double> distance_m,
-                std::optional<double> turns) {
+Roll roll_since(Bench& bench, const Moment& start, const RolledLength& length) {
   const RobotFacts& robot = bench.facts();
-  Roll roll{{}, robot.counts_per_motor_rev, robot.gear_ratio, robot.wheel_diameter_m, distance_m, turns};
+  Roll roll{
+      {},          robot.counts_per_motor_rev, robot.gear_ratio, robot.wheel_diameter_m, length.distance_m,
+      length.turns};
   const Moment& end = bench.fresh();
   for (const Side side : kSides)
     roll.counts[at(side)] = static_cast<double>(end.counts[at(side)] - start.counts[at(side)]);

@@ -13,8 +13,12 @@ namespace astro::motor {
 /// 50 ms; an exception of it ends the wait. Throws astro::Error if nobody rolls the robot for a minute.
 void wait_for_roll(Bench& bench, const Moment& start, const std::function<void()>& idle);
 
-/// The counts since `start` with the robot's parameters. One of `distance_m` and `turns` was measured.
-Roll roll_since(Bench& bench, const Moment& start, std::optional<double> distance_m,
-                std::optional<double> turns);
+/// How far a robot was rolled: one of them was measured.
+struct RolledLength {
+  std::optional<double> distance_m = {}, turns = {};  // turns: of a wheel
+};
+
+/// The counts since `start` with the robot's parameters.
+Roll roll_since(Bench& bench, const Moment& start, const RolledLength& length);
 
 }  // namespace astro::motor
