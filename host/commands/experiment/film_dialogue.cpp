@@ -11,9 +11,9 @@
 #include "host/base/text/columns.hpp"
 #include "host/base/text/trimmed.hpp"
 #include "host/commands/base/advice.hpp"
-#include "host/commands/experiment/programme_work.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/console/console.hpp"
+#include "host/experiment/drive/programme_work.hpp"
 
 namespace astro::commands {
 namespace {
@@ -61,12 +61,12 @@ bool taken(const std::vector<fs::path>& paths, experiment::RunSet& set, const Fi
 }  // namespace
 
 std::string film_briefing(const experiment::Plan& plan, const fs::path& folder, double wheelbase_m) {
-  const ProgrammeWork work = work_of(plan, folder);
+  const experiment::ProgrammeWork work = work_of(plan, folder);
   if (work.left == 0) return "";
   bool open_ended = false;
   for (std::size_t phase = 0; phase < experiment::phase_names(plan).size(); ++phase)
     open_ended = open_ended || experiment::open_ended(plan, phase);
-  const DrivenField field = field_of(plan, wheelbase_m);
+  const experiment::DrivenField field = field_of(plan, wheelbase_m);
   return wrapped(
              "The phone films the tag on the robot all the time: put it on a shelf or a tripod 2 m high or "
              "higher, looking down by 35 degrees or more, so that the whole field and all tags on the floor "

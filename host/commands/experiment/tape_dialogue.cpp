@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "host/base/text/columns.hpp"
-#include "host/commands/experiment/programme_work.hpp"
 #include "host/console/console.hpp"
+#include "host/experiment/drive/programme_work.hpp"
 
 namespace astro::commands {
 namespace {
@@ -51,7 +51,7 @@ std::optional<Redo> redo_in(const std::string& answer) {
 }  // namespace
 
 std::string tape_briefing(const experiment::Plan& plan, const std::filesystem::path& folder) {
-  const ProgrammeWork work = work_of(plan, folder);
+  const experiment::ProgrammeWork work = work_of(plan, folder);
   const double minutes = (work.driving_s + work.left * kMeasuring_s) / 60;
   std::string phases;
   for (std::size_t i = 0; i < experiment::phase_names(plan).size(); ++i)

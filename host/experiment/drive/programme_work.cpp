@@ -1,4 +1,4 @@
-#include "host/commands/experiment/programme_work.hpp"
+#include "host/experiment/drive/programme_work.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 
-namespace astro::commands {
+namespace astro::experiment {
 namespace {
 
 constexpr double kStops_s = 1;  // each segment speeds up and slows down
@@ -17,9 +17,9 @@ double turn_rad(const protocol::AddSegment& segment) {
   return 2 * std::numbers::pi * std::ldexp(static_cast<double>(segment.angle), -32);
 }
 
-double driving_s(const experiment::Plan& plan, const experiment::RunSpec& spec) {
+double driving_s(const Plan& plan, const RunSpec& spec) {
   double time_s = 0;
-  for (const protocol::AddSegment& segment : experiment::path_of(plan, spec))
+  for (const protocol::AddSegment& segment : path_of(plan, spec))
     time_s += std::max(std::abs(length_m(segment)) / plan.speed_mps,
                        std::abs(turn_rad(segment)) / plan.yaw_rate_radps) +
               kStops_s;
@@ -58,29 +58,28 @@ class Walk {
 
 }  // namespace
 
-ProgrammeWork work_of(const experiment::Plan& plan, const std::filesystem::path& folder) {
+ProgrammeWork work_of(const Plan& plan, const std::filesystem::path& folder) {
   ProgrammeWork work;
-  for (std::size_t phase = 0; phase < experiment::phase_names(plan).size(); ++phase)
-    for (const experiment::RunSpec& spec : experiment::runs_of_phase(plan, phase, plan.runs)) {
+  for (std::size_t phase = 0; phase < phase_names(plan).size(); ++phase)
+    for (const RunSpec& spec : runs_of_phase(plan, phase, plan.runs)) {
       ++work.all;
-      if (std::filesystem::exists(experiment::file_of(folder, spec))) continue;
+      if (std::filesystem::exists(file_of(folder, spec))) continue;
       ++work.left;
       work.driving_s += driving_s(plan, spec);
     }
   return work;
 }
 
-DrivenField field_of(const experiment::Plan& plan, double wheelbase_m) {
+DrivenField field_of(const Plan& plan, double wheelbase_m) {
   constexpr double kWheels = 0.005, kWheelbase = 0.01;
   DrivenField field;
   for (const double wheels : {-kWheels, 0.0, kWheels})
     for (const double base : {-kWheelbase, 0.0, kWheelbase}) {
       Walk walk({wheels / wheelbase_m, 1 + base});
-      for (const experiment::RunSpec& spec : experiment::runs_of_phase(plan, 0, plan.runs))
-        for (const protocol::AddSegment& segment : experiment::path_of(plan, spec))
-          walk.along(segment, field);
+      for (const RunSpec& spec : runs_of_phase(plan, 0, plan.runs))
+        for (const protocol::AddSegment& segment : path_of(plan, spec)) walk.along(segment, field);
     }
   return field;
 }
 
-}  // namespace astro::commands
+}  // namespace astro::experiment
