@@ -34,7 +34,7 @@ set(ASTRO_LAYERS
   "host/experiment/analysis     : common host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/experiment/files host/recording host/report host/robot/parameters"
   "host/experiment/drive        : host/base host/calibration/end_poses host/experiment/analysis host/experiment/files host/recording host/robot/client host/robot/motion host/robot/parameters host/truth/source"
   "host/experiment/files        : common host/base host/calibration/end_poses host/calibration/motion host/recording"
-  "host/film/camera             : host/film/picture"
+  "host/film/camera             : host/base host/film/picture"
   "host/film/paper              : host/base"
   "host/film/picture            : host/base"
   "host/film/runs               : host/base host/calibration/likelihood host/experiment/analysis host/experiment/files host/film/picture host/film/track host/recording"

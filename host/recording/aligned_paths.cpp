@@ -11,13 +11,13 @@ namespace {
 
 struct Timed {
   std::int64_t time_us = 0;
-  PlanarPose pose;
+  Pose2 pose;
 };
 using Track = std::vector<Timed>;
 
 template <class Sample>
 Timed timed(const Sample& sample) {
-  return {sample.time_us, {sample.x_m, sample.y_m, sample.theta_rad}};
+  return {sample.time_us, pose_of(sample)};
 }
 
 bool before(const Timed& a, const Timed& b) { return a.time_us < b.time_us; }
@@ -39,12 +39,12 @@ Track truth_track(const Run& run) {
   return track;
 }
 
-PlanarPose between(const PlanarPose& a, const PlanarPose& b, double share) {
+Pose2 interpolated(const Pose2& a, const Pose2& b, double share) {
   return {std::lerp(a.x_m, b.x_m, share), std::lerp(a.y_m, b.y_m, share),
           a.theta_rad + share * wrapped_rad(b.theta_rad - a.theta_rad)};
 }
 
-std::optional<PlanarPose> pose_at(const Track& track, std::int64_t time_us, std::int64_t longest_gap_us) {
+std::optional<Pose2> pose_at(const Track& track, std::int64_t time_us, std::int64_t longest_gap_us) {
   const auto after = std::lower_bound(track.begin(), track.end(), Timed{time_us, {}}, before);
   if (after == track.end()) return std::nullopt;
   if (after->time_us == time_us) return after->pose;
@@ -52,13 +52,14 @@ std::optional<PlanarPose> pose_at(const Track& track, std::int64_t time_us, std:
   const Timed& a = *std::prev(after);
   const std::int64_t gap_us = after->time_us - a.time_us;
   if (gap_us > longest_gap_us) return std::nullopt;
-  return between(a.pose, after->pose, static_cast<double>(time_us - a.time_us) / static_cast<double>(gap_us));
+  return interpolated(a.pose, after->pose,
+                      static_cast<double>(time_us - a.time_us) / static_cast<double>(gap_us));
 }
 
 /// The same moment in both frames; `truth` is empty if there is none.
 struct Anchor {
-  PlanarPose odometry;
-  std::optional<PlanarPose> truth;
+  Pose2 odometry;
+  std::optional<Pose2> truth;
 };
 
 Anchor find_anchor(const Run& run, const Track& odometry, const Track& truth) {
@@ -72,17 +73,12 @@ Anchor find_anchor(const Run& run, const Track& odometry, const Track& truth) {
   return {odometry.front().pose, std::nullopt};
 }
 
-std::vector<PathPoint> seen_from(const PlanarPose& frame, const Track& track, std::int64_t zero_us) {
+std::vector<PathPoint> seen_from(const Pose2& frame, const Track& track, std::int64_t zero_us) {
   std::vector<PathPoint> points;
   for (const Timed& sample : track) {
-    points.push_back({1e-6 * static_cast<double>(sample.time_us - zero_us), in_frame_of(frame, sample.pose)});
+    points.push_back({1e-6 * static_cast<double>(sample.time_us - zero_us), frame.between(sample.pose)});
   }
   return points;
-}
-
-PlanarPose difference(const PlanarPose& truth, const PlanarPose& odometry) {
-  return {truth.x_m - odometry.x_m, truth.y_m - odometry.y_m,
-          wrapped_rad(truth.theta_rad - odometry.theta_rad)};
 }
 
 }  // namespace
@@ -101,7 +97,7 @@ AlignedPaths align_paths(const Run& run) {
     const auto pose = pose_at(truth, odometry[i].time_us, kLongestTruthGapUs);
     if (!pose) continue;
     paths.error.push_back(
-        {paths.odometry[i].time_s, difference(in_frame_of(*anchor.truth, *pose), paths.odometry[i].pose)});
+        {paths.odometry[i].time_s, difference(anchor.truth->between(*pose), paths.odometry[i].pose)});
   }
   return paths;
 }

@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "host/recording/planar_pose.hpp"
+#include "host/base/pose2.hpp"
 #include "host/recording/run.hpp"
 
 namespace astro::recording {
 
 struct PathPoint {
   double time_s = 0;  // since the first odometry sample
-  PlanarPose pose;
+  Pose2 pose;
 };
 
 /// The two paths of a run in one frame, for plots: both in the run's start frame (x forward, y left), and the

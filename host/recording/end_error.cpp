@@ -32,13 +32,12 @@ RunEnds ends_of(const Run& run) {
     throw Error(run_name(run.info) +
                 " has no heading of ground truth at its start: without it the end cannot " + "be placed");
   }
-  return {in_frame_of(*start.truth, *end.truth), in_frame_of(start.odometry, end.odometry)};
+  return {start.truth->between(*end.truth), start.odometry.between(end.odometry)};
 }
 
-EndError end_error(const Run& run) {
+Pose2 end_error(const Run& run) {
   const auto [absolute, odometry] = ends_of(run);
-  return {absolute.x_m - odometry.x_m, absolute.y_m - odometry.y_m,
-          wrapped_rad(absolute.theta_rad - odometry.theta_rad)};
+  return difference(absolute, odometry);
 }
 
 }  // namespace astro::recording

@@ -27,9 +27,9 @@ class PoseMean {
     turn_sum_ += wrapped_rad(theta_rad - first_rad_);
     ++heading_count_;
   }
-  std::optional<PlanarPose> mean() const {
+  std::optional<Pose2> mean() const {
     if (count_ == 0) return std::nullopt;
-    return PlanarPose{x_sum_ / count_, y_sum_ / count_, first_rad_ + turn_sum_ / heading_count_};
+    return Pose2{x_sum_ / count_, y_sum_ / count_, first_rad_ + turn_sum_ / heading_count_};
   }
 
  private:

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "host/recording/planar_pose.hpp"
+#include "host/base/pose2.hpp"
 #include "host/recording/run.hpp"
 
 /// The rests at both ends of a run. The end error uses averages over them: a single tracker sample has noise
@@ -18,10 +18,10 @@ inline constexpr std::int64_t kSettlingUs = 50'000;
 
 struct Rest {
   std::int64_t from_us = 0, to_us = 0;  // time span of the average
-  PlanarPose odometry;                  // mean pose in the odom frame
+  Pose2 odometry;                       // mean pose in the odom frame
   /// Mean pose in the truth's frame; nothing if no sample of the rest is valid. theta NaN if none has a
   /// heading.
-  std::optional<PlanarPose> truth;
+  std::optional<Pose2> truth;
 };
 
 /// Nothing if the robot is not at rest for kShortestRestUs at that end of the run. Samples are in order of

@@ -10,7 +10,6 @@
 #include "host/base/error.hpp"
 #include "host/formats/files/mcap_reader.hpp"
 #include "host/formats/messages/ros_messages.hpp"
-#include "host/recording/planar_pose.hpp"
 #include "host/recording/run_metadata.hpp"
 #include "host/recording/run_writer.hpp"
 #include "host/recording/sample_messages.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/recording/planar_pose.hpp"
+#include "host/base/pose2.hpp"
 #include "host/recording/run.hpp"
 #include "host/report/page.hpp"
 #include "host/report/report.hpp"
@@ -29,7 +29,7 @@ std::vector<RunGroup> group_runs(const std::vector<Phase>& phases);
 /// first odometry sample. `error` is truth - odometry, NaN where the tracker had lost the robot.
 struct SeriesPoint {
   double time_s = 0;
-  recording::PlanarPose odometry, error;
+  Pose2 odometry, error;
 };
 
 /// recording::align_paths at the times of odometry: if the tracker is silent, the figure has a gap.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/calibration/motion/arc.hpp"
+#include "host/base/pose2.hpp"
 
 namespace astro::wall {
 namespace {
@@ -102,7 +102,7 @@ std::vector<Backing> agreeing(const std::vector<Backing>& all, double contact_m)
 
 double backed_off_m(const WheelTravel& since_squaring, const calibration::WheelFactors& factors) {
   const double right_m = factors.c_r * since_squaring.right_m, left_m = factors.c_l * since_squaring.left_m;
-  return -(right_m + left_m) / 2 * calibration::sinc((right_m - left_m) / factors.b_m);
+  return -(right_m + left_m) / 2 * sinc((right_m - left_m) / factors.b_m);
 }
 
 std::optional<WallScale> scale_of_gaps(const WallDrive& drive, const calibration::WheelFactors& factors,

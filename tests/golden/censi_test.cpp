@@ -30,9 +30,7 @@ std::vector<RelativePose> pieces_of(const std::string& subset) {
     const json& laser = tuple["sm"];
     pieces.push_back(
         {{{duration_s * tuple["phi_l"].get<double>(), duration_s * tuple["phi_r"].get<double>()}},
-         laser[0],
-         laser[1],
-         laser[2]});
+         {laser[0], laser[1], laser[2]}});
   }
   return pieces;
 }
@@ -58,7 +56,7 @@ TEST_P(Censi, PublishedAnswersComeOut) {
   expect_same("r_diam", 2 * fit->r_right);
   expect_same("l_x", fit->sensor.x_m);
   expect_same("l_y", fit->sensor.y_m);
-  expect_same("l_theta", fit->sensor.yaw_rad);
+  expect_same("l_theta", fit->sensor.theta_rad);
 }
 
 INSTANTIATE_TEST_SUITE_P(Khepera, Censi, testing::Values("l90_0", "l90_1", "l90_2"));

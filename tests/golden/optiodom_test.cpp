@@ -103,7 +103,7 @@ TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
   EXPECT_NEAR(1 / (1 + found.sessions[0].clock_skew), 1.0241, 2e-4);
   EXPECT_NEAR(found.sessions[0].lever.x_m, -0.033, 1e-3);
   EXPECT_NEAR(found.sessions[0].lever.y_m, 0, 1e-3);
-  EXPECT_NEAR(found.sessions[0].lever.yaw_rad * 180 / std::numbers::pi, -112.1, 0.1);
+  EXPECT_NEAR(found.sessions[0].lever.theta_rad * 180 / std::numbers::pi, -112.1, 0.1);
   // Looked at every 50 ms the wheels seem to slip ten times as much as over seconds: errors that come back.
   EXPECT_GT(found.spacing_m, 0.2);
   EXPECT_LT(found.noise.K_m, 6e-7);

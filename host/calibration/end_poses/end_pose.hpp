@@ -3,14 +3,14 @@
 #include <span>
 #include <vector>
 
+#include "host/base/pose2.hpp"
+
 /// End-pose errors of closed runs, the raw material of UMBmark.
 namespace astro::calibration {
 
 /// Error of one run at its end: absolute (ground truth) - odometry, in the run's start frame:
 /// x forward, y left, theta counter-clockwise. theta is NaN where no heading was measured.
-struct EndPose {
-  double x_m = 0, y_m = 0, theta_rad = 0;
-};
+using EndPose = Pose2;
 
 /// The figures of the thesis's tables for one direction, with the standard errors of the means.
 ///

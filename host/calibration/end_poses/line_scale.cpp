@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/pose2.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/calibration/end_poses/robust_weight.hpp"
-#include "host/calibration/motion/arc.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
@@ -136,10 +135,7 @@ std::string shown(const EndPose& end, const EndPose* other = nullptr) {
 
 }  // namespace
 
-EndPose SquareEnd::error() const {
-  return {measured.x_m - odometry.x_m, measured.y_m - odometry.y_m,
-          std::remainder(measured.theta_rad - odometry.theta_rad, 2 * std::numbers::pi)};
-}
+EndPose SquareEnd::error() const { return difference(measured, odometry); }
 
 std::vector<OddRun> odd_runs(std::span<const SquareEnd> cw, std::span<const SquareEnd> ccw,
                              const SquareSetup& setup) {

@@ -1,7 +1,6 @@
 #include "host/calibration/judgement/path_errors.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
@@ -20,14 +19,8 @@ struct SquareSum {
 };
 
 /// Pose of the tracked body by an odometry that starts at (0, 0, 0).
-BodySample placed(const BodySample& odometry, const Unknowns& u) {
-  const double c = std::cos(u[kStartTheta]), s = std::sin(u[kStartTheta]);
-  const double heading = u[kStartTheta] + odometry.theta_rad;
-  const double ch = std::cos(heading), sh = std::sin(heading);
-  return {odometry.time_s,
-          u[kStartX] + c * odometry.x_m - s * odometry.y_m + ch * u[kLeverX] - sh * u[kLeverY],
-          u[kStartY] + s * odometry.x_m + c * odometry.y_m + sh * u[kLeverX] + ch * u[kLeverY],
-          heading + u[kLeverYaw]};
+Pose2 placed(const Pose2& odometry, const Unknowns& u) {
+  return Pose2{u[kStartX], u[kStartY], u[kStartTheta]} * odometry * lever_of(u);
 }
 
 }  // namespace
@@ -46,15 +39,13 @@ PathErrors path_errors(const MlFit& fit, const WheelFactors& factors) {
     SquareSum run_m;
     const std::vector<BodySample> odometry = dead_reckoned(run, {u[kClockOffset], u[kSkew]}, factors);
     for (std::size_t k = 0; k < odometry.size(); ++k) {
-      const BodySample expected = placed(odometry[k], u);
-      const double miss_m = std::hypot(expected.x_m - run.truth[k].x_m, expected.y_m - run.truth[k].y_m);
+      const Pose2 error = difference(placed(pose_of(odometry[k]), u), pose_of(run.truth[k]));
+      const double miss_m = std::hypot(error.x_m, error.y_m);
       run_m.add(miss_m);
       path_m.add(miss_m);
       if (k + 1 < odometry.size()) continue;
       of_run.final_m = miss_m;
-      of_run.final_heading_rad =
-          run.has_headings ? std::remainder(expected.theta_rad - run.truth[k].theta_rad, 2 * std::numbers::pi)
-                           : std::nan("");
+      of_run.final_heading_rad = run.has_headings ? error.theta_rad : std::nan("");
     }
     of_run.path_rms_m = run_m.rms();
     final_m.add(of_run.final_m);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/agreement.hpp"
@@ -73,7 +72,7 @@ ExpectedBound::ExpectedBound(std::span<const PreparedRun> runs, const WheelFacto
 void ExpectedBound::add(const PreparedRun& run, const ClockFit& clock) {
   Unknowns u = Unknowns::Zero();
   u.head<kShared>() << factors_.c_r, factors_.c_l, factors_.b_m, factors_.e, lever_.x_m, lever_.y_m,
-      lever_.yaw_rad, clock.skew;
+      lever_.theta_rad, clock.skew;
   u[kClockOffset] = clock.offset_s;
   InnovationSums sums;
   sums.session = run.session;
@@ -147,7 +146,8 @@ SessionFit summarise_session(const Unknowns& u, const SharedInformation& covaria
   const double none = std::numeric_limits<double>::quiet_NaN();
   const bool yaw = !fixed.lever_yaw;
   SessionFit session;
-  session.lever = {u[kLeverX], u[kLeverY], yaw ? std::remainder(u[kLeverYaw], 2 * std::numbers::pi) : none};
+  session.lever = wrapped(lever_of(u));
+  if (!yaw) session.lever.theta_rad = none;
   session.lever_se = {se(kLeverX), se(kLeverY), yaw ? se(kLeverYaw) : none};
   if (!fixed.clock) {
     session.clock_skew = u[kSkew];

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -35,17 +34,15 @@ class Moments {
         odometry_(dead_reckoned(run, {u[kClockOffset], u[kSkew]}, factors_of(u))),
         period_s_(median_period_s(run.truth)),
         window_s_(std::max(kWindow_s, static_cast<double>(kFewestSamples) * period_s_)) {
+    const Pose2 robot_in_body = lever_of(u).inverse();
     for (std::size_t k = 0; k < run.truth.size(); ++k) {
-      const BodySample& truth = run.truth[k];
-      const double theta = truth.theta_rad - u[kLeverYaw], c = std::cos(theta), s = std::sin(theta);
-      // Without jumps by whole turns, so that neighbours can be compared as they stand.
-      const double wrapped_rad = theta - odometry_[k].theta_rad;
-      const double turn = k == 0
-                              ? wrapped_rad
-                              : robot_[k - 1].turn_rad + std::remainder(wrapped_rad - robot_[k - 1].turn_rad,
-                                                                        2 * std::numbers::pi);
-      robot_.push_back(
-          {truth.x_m - c * u[kLeverX] + s * u[kLeverY], truth.y_m - s * u[kLeverX] - c * u[kLeverY], turn});
+      Pose2 frame = pose_of(run.truth[k]) * robot_in_body * pose_of(odometry_[k]).inverse();
+      if (k > 0) {
+        // Without jumps by whole turns, so that neighbours can be compared as they stand.
+        const double before_rad = frames_.back().theta_rad;
+        frame.theta_rad = before_rad + wrapped_rad(frame.theta_rad - before_rad);
+      }
+      frames_.push_back(frame);
     }
   }
 
@@ -56,18 +53,18 @@ class Moments {
   std::optional<double> turned_rad(std::size_t at, double gap) const {
     const auto [before, after] = windows_about(at, gap);
     if (std::min(before.size(), after.size()) < kFewestSamples) return {};
-    const auto turn_rad = [&](std::size_t k) { return robot_[k].turn_rad; };
-    return std::remainder(middle(after, turn_rad) - middle(before, turn_rad), 2 * std::numbers::pi);
+    const auto turn_rad = [&](std::size_t k) { return frames_[k].theta_rad; };
+    return wrapped_rad(middle(after, turn_rad) - middle(before, turn_rad));
   }
 
   /// How far the positions at a sample by the windows on both sides are apart. Precondition: turned_rad has an answer there.
   double moved_m(std::size_t at) const {
     const Windows windows = windows_about(at, 0);
-    const auto apart = [&](double Position::*coordinate) {
+    const auto apart = [&](double Point2::*coordinate) {
       const auto carried = [&](std::size_t k) { return carried_position(k, at).*coordinate; };
       return middle(windows.after, carried) - middle(windows.before, carried);
     };
-    return std::hypot(apart(&Position::x_m), apart(&Position::y_m));
+    return std::hypot(apart(&Point2::x_m), apart(&Point2::y_m));
   }
 
   std::vector<Parting> all() const {
@@ -114,17 +111,9 @@ class Moments {
     return {before, after};
   }
 
-  struct Position {
-    double x_m, y_m;
-  };
-
   /// The robot's position at sample `to` by the wheels, starting from its true pose at sample `from`.
-  Position carried_position(std::size_t from, std::size_t to) const {
-    const BodySample &was = odometry_[from], &is = odometry_[to];
-    const Placed& robot = robot_[from];
-    const double dx = is.x_m - was.x_m, dy = is.y_m - was.y_m;
-    const double c = std::cos(robot.turn_rad), s = std::sin(robot.turn_rad);
-    return {robot.x_m + c * dx - s * dy, robot.y_m + s * dx + c * dy};
+  Point2 carried_position(std::size_t from, std::size_t to) const {
+    return frames_[from] * Point2{odometry_[to].x_m, odometry_[to].y_m};
   }
 
   template <class Value>
@@ -135,14 +124,9 @@ class Moments {
     return median_of(std::move(values));
   }
 
-  /// The robot's true pose, and the rotation from odometry to truth there.
-  struct Placed {
-    double x_m, y_m, turn_rad;
-  };
-
   const PreparedRun& run_;
   std::vector<BodySample> odometry_;
-  std::vector<Placed> robot_;
+  std::vector<Pose2> frames_;  // of the odometry, seen from that of the truth, by each sample
   double period_s_, window_s_;
 };
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "host/base/error.hpp"
@@ -68,30 +67,26 @@ void require_forward(const RelativePoseFit& fit) {
 std::vector<BodySample> first_stretch(std::vector<BodySample> robot, const Unknowns& u) {
   double travelled_m = 0;
   for (std::size_t i = 0; i < robot.size(); ++i) {
-    const double c = std::cos(robot[i].theta_rad), s = std::sin(robot[i].theta_rad);
-    robot[i].x_m += c * u[kLeverX] - s * u[kLeverY];
-    robot[i].y_m += s * u[kLeverX] + c * u[kLeverY];
+    const Point2 body = pose_of(robot[i]) * Point2{u[kLeverX], u[kLeverY]};
+    robot[i].x_m = body.x_m;
+    robot[i].y_m = body.y_m;
     if (i > 0) travelled_m += std::hypot(robot[i].x_m - robot[i - 1].x_m, robot[i].y_m - robot[i - 1].y_m);
     if (travelled_m > kStretch_m) robot.resize(i + 1);
   }
   return robot;
 }
 
+Pose2 start_pose(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors,
+                 const Unknowns& u) {
+  if (run.has_headings) return pose_of(run.truth.front()) * lever_of(u).inverse();
+  const std::vector<BodySample> body = first_stretch(dead_reckoned(run, clock, factors), u);
+  return fit_rigid(body, std::span(run.truth).first(body.size()), false).motion;
+}
+
 void place_start(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors, Unknowns& u) {
   u[kClockOffset] = clock.offset_s;
-  if (run.has_headings) {
-    const BodySample& first = run.truth.front();
-    u[kStartTheta] = first.theta_rad - u[kLeverYaw];
-    const double c = std::cos(u[kStartTheta]), s = std::sin(u[kStartTheta]);
-    u[kStartX] = first.x_m - c * u[kLeverX] + s * u[kLeverY];
-    u[kStartY] = first.y_m - s * u[kLeverX] - c * u[kLeverY];
-    return;
-  }
-  const std::vector<BodySample> body = first_stretch(dead_reckoned(run, clock, factors), u);
-  const RigidFit fit = fit_rigid(body, std::span(run.truth).first(body.size()), false);
-  u[kStartTheta] = fit.rotation_rad;
-  u[kStartX] = fit.x_m;
-  u[kStartY] = fit.y_m;
+  const Pose2 start = start_pose(run, clock, factors, u);
+  u.segment<3>(kStartX) << start.x_m, start.y_m, start.theta_rad;
 }
 
 }  // namespace
@@ -140,7 +135,7 @@ std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors&
       if (const auto mounting = mounting_of(pieces[at], rates)) lever = mounting->lever;
     }
     if (!lever) lever = lever_of_positions(only_of_session(runs, session), factors);
-    if (lever) shared.segment<3>(kLeverX) << lever->x_m, lever->y_m, lever->yaw_rad;
+    if (lever) shared.segment<3>(kLeverX) << lever->x_m, lever->y_m, lever->theta_rad;
   }
   std::vector<Unknowns> all;
   for (std::size_t i = 0; i < runs.runs.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "host/calibration/motion/trajectory.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
 /// The unknowns of the maximum-likelihood estimate, in the order of every vector and matrix about them.
@@ -31,5 +32,6 @@ using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 inline WheelFactors factors_of(const Unknowns& u) { return {u[kCRight], u[kCLeft], u[kB], u[kE]}; }
+inline LeverArm lever_of(const Unknowns& u) { return {u[kLeverX], u[kLeverY], u[kLeverYaw]}; }
 
 }  // namespace astro::calibration

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/base/pose2.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
 /// The arc of constant twist: the motion of a robot between two samples of its wheels.
@@ -10,18 +11,10 @@ namespace astro::calibration {
 /// The longest time that one arc covers, also in gaps of truth.
 inline constexpr double kLongestStep_s = 0.06;
 
-/// sin(a) / a, without the division where it would lose digits.
-inline double sinc(double a) { return std::abs(a) < 1e-4 ? 1 - a * a / 6 : std::sin(a) / a; }
-
-/// Moves `pose` (x_m, y_m, theta_rad; not wrapped) along the arc that the two wheel travels give on wheelbase
-/// b. Exact while the ratio of the wheels' speeds does not change. Source  Chong & Kleeman 1997.
-template <class Pose>
-void advance(Pose& pose, double right_m, double left_m, double b_m) {
-  const double half_turn = (right_m - left_m) / b_m / 2;
-  const double chord_m = (right_m + left_m) / 2 * sinc(half_turn);
-  pose.x_m += chord_m * std::cos(pose.theta_rad + half_turn);
-  pose.y_m += chord_m * std::sin(pose.theta_rad + half_turn);
-  pose.theta_rad += 2 * half_turn;
+/// Moves `pose` along the arc that the two wheel travels give on wheelbase b. Exact while the ratio of the wheels'
+/// speeds does not change. Source  Chong & Kleeman 1997.
+inline void advance(Pose2& pose, double right_m, double left_m, double b_m) {
+  pose = pose * Twist2{(right_m + left_m) / 2, 0, (right_m - left_m) / b_m}.exp();
 }
 
 /// How much of e acts on an arc of these wheel travels: 1 on a line, 0 in a spin. With the arc's curvature kappa it is
@@ -39,8 +32,7 @@ inline double effective_wheelbase_m(double right_m, double left_m, const WheelFa
 }
 
 /// Moves `pose` along the arc of a robot with these factors, of which the wheels' nominal travels are given.
-template <class Pose>
-void advance(Pose& pose, double nominal_right_m, double nominal_left_m, const WheelFactors& factors) {
+inline void advance(Pose2& pose, double nominal_right_m, double nominal_left_m, const WheelFactors& factors) {
   const double right_m = factors.c_r * nominal_right_m, left_m = factors.c_l * nominal_left_m;
   advance(pose, right_m, left_m, effective_wheelbase_m(right_m, left_m, factors));
 }

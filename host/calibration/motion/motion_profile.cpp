@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "host/calibration/motion/arc.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
@@ -59,7 +58,6 @@ std::optional<Value> Stream<Value>::rate(double time_s, const Window& window) co
 }
 
 BodyPath::BodyPath(std::span<const BodySample> samples, bool headings) : headings_(headings) {
-  const double turn = 2 * std::numbers::pi;
   double heading_rad = 0;
   std::optional<BodySample> first;
   for (const BodySample& sample : samples) {
@@ -69,7 +67,7 @@ BodyPath::BodyPath(std::span<const BodySample> samples, bool headings) : heading
     // Values relative to the first one, because an integral of large numbers loses digits.
     position_m_.add(sample.time_s, {sample.x_m - first->x_m, sample.y_m - first->y_m});
     if (!headings) continue;
-    heading_rad += std::remainder(sample.theta_rad - first->theta_rad - heading_rad, turn);
+    heading_rad += wrapped_rad(sample.theta_rad - first->theta_rad - heading_rad);
     heading_rad_.add(sample.time_s, heading_rad);
   }
 }
@@ -86,7 +84,7 @@ BodyPath wheel_body(std::span<const WheelSample> wheels, double wheelbase_m, dou
                     double beyond_s) {
   const WheelPath path(wheels);
   std::vector<BodySample> body;
-  BodySample robot{0, 0, 0, 0};
+  Pose2 robot;
   const double first_s = wheels.front().time_s - beyond_s, last_s = wheels.back().time_s + beyond_s;
   const double step_s = std::max(0.025, (last_s - first_s) / kMostSteps);
   const int steps = static_cast<int>(std::ceil((last_s - first_s) / step_s)) + 1;
@@ -96,8 +94,8 @@ BodyPath wheel_body(std::span<const WheelSample> wheels, double wheelbase_m, dou
     const WheelState now = path.at(time_s);
     advance(robot, now.right_m - before.right_m, now.left_m - before.left_m, wheelbase_m);
     before = now;
-    body.push_back({time_s, robot.x_m + lever_m * std::cos(robot.theta_rad),
-                    robot.y_m + lever_m * std::sin(robot.theta_rad), robot.theta_rad});
+    const Point2 at = robot * Point2{lever_m, 0};
+    body.push_back({time_s, at.x_m, at.y_m, robot.theta_rad});
   }
   return BodyPath(body, true);
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace astro::calibration {
 namespace {
@@ -22,8 +21,7 @@ void SecondDifferences::add(std::span<const BodySample> truth) {
     position_m_.push_back(dx_m);
     position_m_.push_back(dy_m);
     if (std::isfinite(a.theta_rad + b.theta_rad + c.theta_rad))
-      heading_rad_.push_back(std::remainder(c.theta_rad - b.theta_rad, 2 * std::numbers::pi) -
-                             std::remainder(b.theta_rad - a.theta_rad, 2 * std::numbers::pi));
+      heading_rad_.push_back(wrapped_rad(c.theta_rad - b.theta_rad) - wrapped_rad(b.theta_rad - a.theta_rad));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "host/base/pose2.hpp"
+
 /// A whole drive as the estimator uses it: the travel of the wheels and the poses of the tracked body.
 namespace astro::calibration {
 
@@ -32,9 +34,7 @@ struct Trajectory {
 };
 
 /// Pose of the tracked body in the robot frame (x forward, y left, origin midway between the wheels).
-struct LeverArm {
-  double x_m = 0, y_m = 0, yaw_rad = 0;
-};
+using LeverArm = Pose2;
 
 /// The noise model of the estimator. A wheel that travels d is off by a normal error of variance K * |d|,
 /// white along the path; the tracker's errors are white and normal per coordinate.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
@@ -24,8 +23,7 @@ double heading_slope(const PreparedRun& run, const std::vector<BodySample>& odom
   double product = 0, square = 0;
   for (std::size_t i = 0, from = 0; i < run.truth.size(); ++i) {
     if (run.truth[i].time_s - run.truth[from].time_s < kStep_s) continue;
-    const double truth =
-        std::remainder(run.truth[i].theta_rad - run.truth[from].theta_rad, 2 * std::numbers::pi);
+    const double truth = wrapped_rad(run.truth[i].theta_rad - run.truth[from].theta_rad);
     const double wheels = odometry[i].theta_rad - odometry[from].theta_rad;
     from = i;
     if (std::abs(wheels) > kLargestStep_rad) continue;  // a long gap

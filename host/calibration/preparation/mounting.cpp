@@ -28,10 +28,10 @@ std::optional<Mounting> mounting_of(std::span<const RelativePose> pieces, const 
     squares_m2 += value * value;
   };
   for (const RelativePose& piece : pieces) {
-    const Displacement robot = displacement(piece, rates);
+    const Pose2 robot = displacement(piece, rates), &sensor = piece.moved;
     const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
-    add({1 - c, s, piece.x_m, -piece.y_m}, b_m * robot.x_m);
-    add({-s, 1 - c, piece.y_m, piece.x_m}, b_m * robot.y_m);
+    add({1 - c, s, sensor.x_m, -sensor.y_m}, b_m * robot.x_m);
+    add({-s, 1 - c, sensor.y_m, sensor.x_m}, b_m * robot.y_m);
     displaced_m2 += b_m * b_m * (robot.x_m * robot.x_m + robot.y_m * robot.y_m);
   }
   const double rows = 2 * static_cast<double>(pieces.size());

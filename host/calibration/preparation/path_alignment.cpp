@@ -16,12 +16,11 @@ std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& cl
     return clock.robot_time_s(sample.time_s, run.clock_middle_s);
   };
   WheelWalk walk(run.source->wheels, robot_s(run.truth.front()));
-  BodySample pose{0, 0, 0, 0};
+  Pose2 pose;
   for (const BodySample& sample : run.truth) {
     if (!poses.empty())
       walk.go(robot_s(sample), [&](const WheelStep& step) { advance(pose, step.right, step.left, factors); });
-    pose.time_s = sample.time_s;
-    poses.push_back(pose);
+    poses.push_back({sample.time_s, pose.x_m, pose.y_m, pose.theta_rad});
   }
   return poses;
 }
@@ -43,13 +42,10 @@ RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample>
     cross += ax * by - ay * bx;
     spread += ax * ax + ay * ay + bx * bx + by * by;
   }
-  RigidFit fit;
-  fit.rotation_rad = std::atan2(cross, dot);
-  const double c = std::cos(fit.rotation_rad), s = std::sin(fit.rotation_rad);
-  fit.x_m = tx - (c * fx - s * fy);
-  fit.y_m = ty - (s * fx + c * fy);
-  fit.rms_m = std::sqrt(std::max(0.0, spread - 2 * std::hypot(dot, cross)) / n);
-  return fit;
+  const double rotation_rad = std::atan2(cross, dot);
+  const Point2 middle = Point2{fx, fy}.turned(rotation_rad);
+  return {{tx - middle.x_m, ty - middle.y_m, rotation_rad},
+          std::sqrt(std::max(0.0, spread - 2 * std::hypot(dot, cross)) / n)};
 }
 
 }  // namespace astro::calibration

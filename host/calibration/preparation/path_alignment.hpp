@@ -46,8 +46,7 @@ std::vector<BodySample> dead_reckoned(const PreparedRun& run, const ClockFit& cl
 
 /// The rigid motion, with or without reflection, that brings one path closest to another.
 struct RigidFit {
-  double rotation_rad = 0, x_m = 0,
-         y_m = 0;  // to = R(rotation) * from + (x, y), y of `from` negated if mirrored
+  Pose2 motion;  // to = motion * from, y of `from` negated if mirrored
   double rms_m = 0;
 };
 RigidFit fit_rigid(std::span<const BodySample> from, std::span<const BodySample> to, bool mirrored);

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "host/calibration/motion/arc.hpp"
@@ -17,23 +16,16 @@ constexpr double kLeastPiece_m = 0.3, kLeastPiece_rad = 0.5;
 // During a gap of the tracker the robot may have turned by more than half a turn.
 constexpr double kSurely_rad = 2.5;
 
-RelativePose closed_piece(const BodySample& from, const BodySample& to, std::vector<WheelStep> steps) {
-  const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
-  const double c = std::cos(from.theta_rad), s = std::sin(from.theta_rad);
-  return {std::move(steps), c * dx + s * dy, c * dy - s * dx,
-          std::remainder(to.theta_rad - from.theta_rad, 2 * std::numbers::pi)};
-}
-
 // The displacements as 0 = row * (b, x, y, cos yaw, sin yaw), two rows a piece.
 Eigen::Matrix<double, 5, 5> displacement_normal(std::span<const RelativePose> pieces,
                                                 const TurnRates& rates) {
   Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
   for (const RelativePose& piece : pieces) {
-    const Displacement robot = displacement(piece, rates);
+    const Pose2 robot = displacement(piece, rates), &sensor = piece.moved;
     const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
     Eigen::Matrix<double, 2, 5> rows;
-    rows << -robot.x_m, 1 - c, s, piece.x_m, -piece.y_m,  //
-        -robot.y_m, -s, 1 - c, piece.y_m, piece.x_m;
+    rows << -robot.x_m, 1 - c, s, sensor.x_m, -sensor.y_m,  //
+        -robot.y_m, -s, 1 - c, sensor.y_m, sensor.x_m;
     normal += rows.transpose() * rows;
   }
   return normal;
@@ -54,23 +46,19 @@ double quantile(const std::vector<double>& values, double fraction) {
   return at_rank(values, std::min(index, values.size() - 1));
 }
 
-/// What `predicted` says, without the steps: to copy them costs more than to follow them.
-RelativePose sensor_pose(const RelativePose& piece, const RelativePoseFit& fit) {
-  const Displacement robot = displacement(piece, {-fit.r_left / fit.b_m, fit.r_right / fit.b_m});
-  const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
-  const double dx = fit.b_m * robot.x_m + (c - 1) * fit.sensor.x_m - s * fit.sensor.y_m;
-  const double dy = fit.b_m * robot.y_m + s * fit.sensor.x_m + (c - 1) * fit.sensor.y_m;
-  const double cy = std::cos(fit.sensor.yaw_rad), sy = std::sin(fit.sensor.yaw_rad);
-  return {{}, cy * dx + sy * dy, cy * dy - sy * dx, robot.theta_rad};
+/// What the sensor should have measured on a robot with these values.
+Pose2 expected_motion(const RelativePose& piece, const RelativePoseFit& fit) {
+  const Pose2 robot = displacement(piece, {-fit.r_left / fit.b_m, fit.r_right / fit.b_m});
+  return fit.sensor.between(Pose2{fit.b_m * robot.x_m, fit.b_m * robot.y_m, robot.theta_rad} * fit.sensor);
 }
 
 std::vector<RelativePose> without_worst(std::vector<RelativePose> pieces, const RelativePoseFit& fit,
                                         double fraction) {
   std::vector<double> position, heading;
   for (const RelativePose& piece : pieces) {
-    const RelativePose expected = sensor_pose(piece, fit);
-    position.push_back(std::hypot(expected.x_m - piece.x_m, expected.y_m - piece.y_m));
-    heading.push_back(std::abs(std::remainder(expected.theta_rad - piece.theta_rad, 2 * std::numbers::pi)));
+    const Pose2 error = difference(expected_motion(piece, fit), piece.moved);
+    position.push_back(std::hypot(error.x_m, error.y_m));
+    heading.push_back(std::abs(error.theta_rad));
   }
   const double most_position = quantile(position, 1 - fraction),
                most_heading = quantile(heading, 1 - fraction);
@@ -100,7 +88,7 @@ std::vector<RelativePose> pieces_of(const PreparedRun& run, const ClockFit& cloc
     });
     if (std::abs(travelled_m) < kLeastPiece_m && std::abs(turned_rad) < kLeastPiece_rad) continue;
     if (std::abs(turned_rad) < kSurely_rad)
-      pieces.push_back(closed_piece(run.truth[from], run.truth[i], std::move(steps)));
+      pieces.push_back({std::move(steps), wrapped(pose_of(run.truth[from]).between(pose_of(run.truth[i])))});
     steps.clear();
     from = i;
     travelled_m = turned_rad = 0;
@@ -108,8 +96,8 @@ std::vector<RelativePose> pieces_of(const PreparedRun& run, const ClockFit& cloc
   return pieces;
 }
 
-Displacement displacement(const RelativePose& piece, const TurnRates& rates) {
-  Displacement at;
+Pose2 displacement(const RelativePose& piece, const TurnRates& rates) {
+  Pose2 at;
   for (const WheelStep& step : piece.steps)
     advance(at, rates.right * step.right, -rates.left * step.left, 1.0);
   return at;
@@ -122,7 +110,7 @@ std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces) {
     Eigen::Vector2d travel = Eigen::Vector2d::Zero();
     for (const WheelStep& step : piece.steps) travel += Eigen::Vector2d(step.left, step.right);
     normal += travel * travel.transpose();
-    right_side += travel * piece.theta_rad;
+    right_side += travel * piece.moved.theta_rad;
   }
   // Straight pieces alone do not determine the sum of both, spins alone not the difference.
   if (!(normal.determinant() > 1e-9 * normal.trace() * normal.trace())) return {};
@@ -169,9 +157,7 @@ std::optional<RelativePoseFit> fit_relative_poses_trimmed(std::span<const Relati
 }
 
 RelativePose predicted(const RelativePose& piece, const RelativePoseFit& fit) {
-  RelativePose pose = sensor_pose(piece, fit);
-  pose.steps = piece.steps;
-  return pose;
+  return {piece.steps, expected_motion(piece, fit)};
 }
 
 }  // namespace astro::calibration

@@ -18,8 +18,8 @@ struct WheelStep {
 
 /// The same piece of a drive by the wheels and by a sensor on the robot.
 struct RelativePose {
-  std::vector<WheelStep> steps;            // in order
-  double x_m = 0, y_m = 0, theta_rad = 0;  // sensor's pose at the end, seen from its pose at the start
+  std::vector<WheelStep> steps;  // in order
+  Pose2 moved = {};              // sensor's pose at the end, seen from its pose at the start
 };
 
 /// A run with headings as relative poses, each long enough to exceed the tracker's noise, and short enough that there are many.
@@ -42,11 +42,8 @@ struct TurnRates {
 /// Nothing if the pieces do not determine both: straight ones alone, or spins alone. Where the sensor sits has no effect.
 std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces);
 
-/// Displacement of the robot in wheelbases, and how far it turned.
-struct Displacement {
-  double x_m = 0, y_m = 0, theta_rad = 0;
-};
-Displacement displacement(const RelativePose& piece, const TurnRates& rates);
+/// The robot's pose at the end of a piece, seen from its pose at the start; lengths in wheelbases.
+Pose2 displacement(const RelativePose& piece, const TurnRates& rates);
 
 /// Two linear least squares: headings give r / b of each wheel; the displacements, which are linear in b, in
 /// the lever arm and in the sine and cosine of its yaw, then give the rest as the eigenvector of the smaller

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,8 +45,8 @@ std::vector<std::optional<Mounting>> mountings(const PreparedRuns& runs, const W
 }
 
 bool differ(const Mounting& a, const Mounting& b) {
-  const Eigen::Vector3d apart(a.lever.x_m - b.lever.x_m, a.lever.y_m - b.lever.y_m,
-                              std::remainder(a.lever.yaw_rad - b.lever.yaw_rad, 2 * std::numbers::pi));
+  const LeverArm change = difference(a.lever, b.lever);
+  const Eigen::Vector3d apart(change.x_m, change.y_m, change.theta_rad);
   if (std::hypot(apart[0], apart[1]) < kSame_m && std::abs(apart[2]) < kSame_rad) return false;
   const Eigen::Matrix3d covariance = a.covariance + b.covariance;
   return apart.dot(covariance.ldlt().solve(apart)) > kUnlikely;

@@ -19,7 +19,6 @@
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/drive/record_run.hpp"
-#include "host/recording/planar_pose.hpp"
 #include "host/recording/telemetry_sample.hpp"
 
 namespace astro::commands {
@@ -71,10 +70,6 @@ class OdometryWatch {
   robot::Subscription subscription_;
 };
 
-recording::PlanarPose pose_of(const recording::OdometrySample& sample) {
-  return {sample.x_m, sample.y_m, sample.theta_rad};
-}
-
 /// How long the robot moved, by its own clock.
 class Stopwatch {
  public:
@@ -93,7 +88,7 @@ class Stopwatch {
 
 void report(const DriveOptions& options, const char* outcome, const recording::OdometrySample& start,
             const recording::OdometrySample& end, double seconds) {
-  const recording::PlanarPose moved = recording::in_frame_of(pose_of(start), pose_of(end));
+  const Pose2 moved = pose_of(start).between(pose_of(end));
   if (options.json)
     return print_json(Json{{"outcome", outcome},
                            {"duration_s", seconds},

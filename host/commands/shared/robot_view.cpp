@@ -87,16 +87,16 @@ std::string duration_in_words(std::uint64_t us) {
   return fmt::format("{} h {:02} min {:02} s", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-Json to_json(const recording::PlanarPose& pose) {
+Json to_json(const Pose2& pose) {
   return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"theta_rad", pose.theta_rad}};
 }
 
-std::string in_words(const recording::PlanarPose& pose) {
+std::string in_words(const Pose2& pose) {
   return fmt::format("x {:8.4f} m   y {:8.4f} m   heading {:9.3f} deg", without_minus_zero(pose.x_m, 4),
                      without_minus_zero(pose.y_m, 4), without_minus_zero(degrees(pose.theta_rad), 3));
 }
 
-std::string in_short_words(const recording::PlanarPose& pose) {
+std::string in_short_words(const Pose2& pose) {
   return fmt::format("x {:7.3f} m  y {:7.3f} m  {:7.1f} deg", without_minus_zero(pose.x_m, 3),
                      without_minus_zero(pose.y_m, 3), without_minus_zero(degrees(pose.theta_rad), 1));
 }

@@ -10,7 +10,7 @@
 #include "common/protocol/session.hpp"
 #include "common/protocol/status.hpp"
 #include "common/safety/fault.hpp"
-#include "host/recording/planar_pose.hpp"
+#include "host/base/pose2.hpp"
 
 /// What the robot reports, in words and JSON keys that all commands share.
 namespace astro::commands {
@@ -49,12 +49,12 @@ std::string_view fault_help(Fault fault);
 /// "2 h 03 min 10 s", "12.3 s".
 std::string duration_in_words(std::uint64_t us);
 
-Json to_json(const recording::PlanarPose& pose);
+Json to_json(const Pose2& pose);
 
 /// "x 1.0000 m   y -0.0003 m   heading 0.02 deg".
-std::string in_words(const recording::PlanarPose& pose);
+std::string in_words(const Pose2& pose);
 
 /// "x  1.000 m  y  0.000 m   0.0 deg", for lines that change all the time.
-std::string in_short_words(const recording::PlanarPose& pose);
+std::string in_short_words(const Pose2& pose);
 
 }  // namespace astro::commands

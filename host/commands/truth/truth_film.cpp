@@ -77,8 +77,8 @@ report::Plot floor_plan(const film::FilmTrack& track) {
   report::PlotLine tags;
   tags.points = true;
   for (const film::FloorTag& tag : track.scene.tags) {
-    tags.x.push_back(tag.x_m);
-    tags.y.push_back(tag.y_m);
+    tags.x.push_back(tag.pose.x_m);
+    tags.y.push_back(tag.pose.y_m);
     tags.labels.push_back(std::to_string(tag.id));
   }
   plot.lines.push_back(std::move(tags));

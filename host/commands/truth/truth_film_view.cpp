@@ -74,9 +74,10 @@ std::string floor_rows(const FilmTrack& track) {
   for (std::size_t i = 0; i < track.floor.size(); ++i) {
     const film::FloorTag& tag = track.scene.tags[i];
     const film::FloorTagReport& report = track.floor[i];
-    rows.push_back({fmt::format("{}", tag.id), fmt::format("{:.4f}", tag.x_m), fmt::format("{:.4f}", tag.y_m),
-                    fmt::format("{:.2f}", degrees(tag.yaw_rad)), fmt::format("{:.0f}", report.side_px),
-                    fmt::format("{:.0f}", 100 * report.seen_share), fmt::format("{:.2f}", report.misfit_px)});
+    rows.push_back({fmt::format("{}", tag.id), fmt::format("{:.4f}", tag.pose.x_m),
+                    fmt::format("{:.4f}", tag.pose.y_m), fmt::format("{:.2f}", degrees(tag.pose.theta_rad)),
+                    fmt::format("{:.0f}", report.side_px), fmt::format("{:.0f}", 100 * report.seen_share),
+                    fmt::format("{:.2f}", report.misfit_px)});
   }
   return console::table(rows);
 }
@@ -139,9 +140,9 @@ Json to_json(const FilmTrack& track) {
   Json floor = Json::array(), remarks = Json::array(), rotation = Json::array();
   for (std::size_t i = 0; i < track.floor.size(); ++i)
     floor.push_back({{"id", scene.tags[i].id},
-                     {"x_m", scene.tags[i].x_m},
-                     {"y_m", scene.tags[i].y_m},
-                     {"yaw_rad", scene.tags[i].yaw_rad},
+                     {"x_m", scene.tags[i].pose.x_m},
+                     {"y_m", scene.tags[i].pose.y_m},
+                     {"yaw_rad", scene.tags[i].pose.theta_rad},
                      {"side_px", track.floor[i].side_px},
                      {"seen", track.floor[i].seen_share},
                      {"misfit_px", track.floor[i].misfit_px}});

@@ -85,7 +85,7 @@ nlohmann::json kind_json(const calibration::KindFit& kind) {
 }
 
 nlohmann::json lever_json(const calibration::LeverArm& lever) {
-  return {{"x_m", number(lever.x_m)}, {"y_m", number(lever.y_m)}, {"yaw_rad", number(lever.yaw_rad)}};
+  return {{"x_m", number(lever.x_m)}, {"y_m", number(lever.y_m)}, {"yaw_rad", number(lever.theta_rad)}};
 }
 
 nlohmann::json matrix_json(const calibration::FactorCovariance& covariance) {

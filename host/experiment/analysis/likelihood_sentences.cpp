@@ -29,8 +29,8 @@ std::string place_text(const calibration::SessionFit& session) {
   const calibration::LeverArm &lever = session.lever, &se = session.lever_se;
   std::string text = fmt::format("x {} mm, y {} mm", with_error(1000 * lever.x_m, 1000 * se.x_m, 2),
                                  with_error(1000 * lever.y_m, 1000 * se.y_m, 2));
-  if (std::isfinite(lever.yaw_rad))
-    text += fmt::format(", yaw {}°", with_error(degrees(lever.yaw_rad), degrees(se.yaw_rad), 3));
+  if (std::isfinite(lever.theta_rad))
+    text += fmt::format(", yaw {}°", with_error(degrees(lever.theta_rad), degrees(se.theta_rad), 3));
   return text;
 }
 
@@ -144,7 +144,7 @@ std::string wheelbase_sentence(const Calibration& found) {
 
 std::string noise_sentence(const MlResult& ml) {
   const calibration::NoiseModel& noise = ml.estimate.noise;
-  const bool headings = std::isfinite(ml.estimate.sessions.front().lever.yaw_rad);
+  const bool headings = std::isfinite(ml.estimate.sessions.front().lever.theta_rad);
   std::string text =
       fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth {:.3g} mm",
                   ml.options.noise ? "given" : "estimated", noise.K_m, 1000 * noise.sigma_xy_m);

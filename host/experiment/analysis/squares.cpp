@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "host/base/error.hpp"
+#include "host/base/pose2.hpp"
 #include "host/base/text/sense.hpp"
-#include "host/calibration/motion/arc.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/files/curvature_named.hpp"
@@ -25,8 +25,7 @@ using calibration::SquareEnd;
 
 SquareEnd end_in(const recording::Run& run) {
   const auto [absolute, odometry] = recording::ends_of(run);
-  return {{absolute.x_m, absolute.y_m, recording::wrapped_rad(absolute.theta_rad)},
-          {odometry.x_m, odometry.y_m, recording::wrapped_rad(odometry.theta_rad)}};
+  return {wrapped(absolute), wrapped(odometry)};
 }
 
 /// The squares of one direction, before any is left out.
@@ -124,11 +123,11 @@ Squares squares_of(std::span<const recording::Run> runs) {
 std::optional<calibration::LineEnd> line_of(const recording::Run& run) {
   if (run.info.kind != "line") return std::nullopt;
   const SquareEnd end = square_end(run);
-  const double half_turn = end.odometry.theta_rad / 2;
-  const double driven_m = std::hypot(end.odometry.x_m, end.odometry.y_m) / calibration::sinc(half_turn);
+  const Twist2 arc = end.odometry.log();
   if (!(end.odometry.x_m > 0) || !std::isfinite(end.measured.x_m)) return std::nullopt;
   const calibration::WheelFactors loaded = loaded_factors(run.info);
-  return calibration::LineEnd{end.measured.x_m, end.measured.y_m, driven_m, (loaded.c_r + loaded.c_l) / 2};
+  return calibration::LineEnd{end.measured.x_m, end.measured.y_m, std::hypot(arc.x_m, arc.y_m),
+                              (loaded.c_r + loaded.c_l) / 2};
 }
 
 SquareEnd square_end(const recording::Run& run) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "host/film/camera/planar_pose.hpp"
 
@@ -55,21 +54,17 @@ FloorTag placed(int id, const TagCorners& flat) {
     along += q.dot(flat[i]);
     across += q.x() * flat[i].y() - q.y() * flat[i].x();
   }
-  return {id, middle.x(), middle.y(), std::atan2(across, along)};
+  return {id, {middle.x(), middle.y(), std::atan2(across, along)}};
 }
 
 /// In the frame of the first tag.
 void make_first_origin(Scene& scene) {
-  const FloorTag origin = scene.tags.front();
-  const Eigen::Rotation2Dd back(-origin.yaw_rad);
-  for (FloorTag& tag : scene.tags) {
-    const Vector2d p = back * Vector2d(tag.x_m - origin.x_m, tag.y_m - origin.y_m);
-    tag = {tag.id, p.x(), p.y(), std::remainder(tag.yaw_rad - origin.yaw_rad, 2 * std::numbers::pi)};
-  }
+  const Pose2 origin = scene.tags.front().pose;
+  for (FloorTag& tag : scene.tags) tag.pose = wrapped(origin.between(tag.pose));
   Camera& camera = scene.camera;
-  const Vector2d p = back * Vector2d(camera.position_m.x() - origin.x_m, camera.position_m.y() - origin.y_m);
-  camera.position_m.head<2>() = p;
-  camera.rotation *= rotation_by({0, 0, origin.yaw_rad});
+  const Pose2 at = origin.between({camera.position_m.x(), camera.position_m.y(), 0});
+  camera.position_m.head<2>() << at.x_m, at.y_m;
+  camera.rotation *= rotation_by({0, 0, origin.theta_rad});
 }
 
 /// The camera in the frame of a square with this pose.

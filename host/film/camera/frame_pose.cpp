@@ -12,7 +12,7 @@ using Residual = Eigen::Matrix<double, 8, 1>;
 
 }  // namespace
 
-std::optional<FramePose> frame_pose(const Scene& scene, const TagCorners& seen, const RobotPose& start,
+std::optional<FramePose> frame_pose(const Scene& scene, const TagCorners& seen, const Pose2& start,
                                     const RobotVelocity& velocity) {
   constexpr int kMostSteps = 12;
   constexpr double kStep = 1e-6, kSettled = 1e-8, kFarthest = 1.5;  // m and rad

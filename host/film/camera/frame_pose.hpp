@@ -8,7 +8,7 @@
 namespace astro::film {
 
 struct FramePose {
-  RobotPose pose;
+  Pose2 pose;
   double rms_px = 0;  // of what remains of the corners, per coordinate
   Eigen::Matrix3d cofactor =
       Eigen::Matrix3d::Zero();  // the covariance of (x, y, theta) for corners with a standard error of 1 px
@@ -16,7 +16,7 @@ struct FramePose {
 
 /// The pose of the robot's tag in one picture of a scene that is known. `start` to within some centimetres and 0.3 rad.
 /// Nothing if it does not settle.
-std::optional<FramePose> frame_pose(const Scene& scene, const TagCorners& seen, const RobotPose& start,
+std::optional<FramePose> frame_pose(const Scene& scene, const TagCorners& seen, const Pose2& start,
                                     const RobotVelocity& velocity);
 
 }  // namespace astro::film

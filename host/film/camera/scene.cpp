@@ -9,9 +9,10 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
-Vector2d turned(double angle_rad, const Vector2d& v) {
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+/// A point of a tag on the floor.
+Vector2d place_of(const Vector2d& point, const Pose2& tag) {
+  const Point2 at = tag * Point2{point.x(), point.y()};
+  return {at.x_m, at.y_m};
 }
 
 double mean_row(const TagCorners& corners) {
@@ -56,12 +57,12 @@ enum : std::size_t {
 }  // namespace
 
 std::optional<double> distance_between(const Scene& scene, int from, int to) {
-  const auto tag = [&](int id) -> const FloorTag* {
+  const auto tag = [&](int id) -> const Pose2* {
     for (const FloorTag& one : scene.tags)
-      if (one.id == id) return &one;
+      if (one.id == id) return &one.pose;
     return nullptr;
   };
-  const FloorTag *a = tag(from), *b = tag(to);
+  const Pose2 *a = tag(from), *b = tag(to);
   if (a == nullptr || b == nullptr) return std::nullopt;
   return std::hypot(b->x_m - a->x_m, b->y_m - a->y_m);
 }
@@ -80,10 +81,10 @@ TagCorners with_edges_shifted(const TagCorners& corners, double shift_px) {
 }
 
 TagCorners floor_corners(const Scene& scene, std::size_t index) {
-  const FloorTag& tag = scene.tags[index];
+  const Pose2& tag = scene.tags[index].pose;
   TagCorners corners;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vector2d p = Vector2d(tag.x_m, tag.y_m) + turned(tag.yaw_rad, scene.floor_side_m * unit_corner(i));
+    const Vector2d p = place_of(scene.floor_side_m * unit_corner(i), tag);
     corners[i] = project(scene.camera, {p.x(), p.y(), 0});
   }
   return with_edges_shifted(corners, scene.floor_shift_px);
@@ -93,21 +94,21 @@ double row_delay_s(const Scene& scene, const TagCorners& seen) {
   return mean_row(seen) / scene.height_px * scene.readout_s;
 }
 
-TagCorners robot_corners(const Scene& scene, const RobotPose& pose, const RobotVelocity& velocity,
+TagCorners robot_corners(const Scene& scene, const Pose2& pose, const RobotVelocity& velocity,
                          const TagCorners& seen) {
   const double mean = mean_row(seen);
   TagCorners corners;
   for (std::size_t i = 0; i < 4; ++i) {
     const double dt_s = (seen[i].y() - mean) / scene.height_px * scene.readout_s;
     const Vector2d q = scene.robot_side_m * unit_corner(i);
-    const Vector2d p = Vector2d(pose.x_m + velocity.x_mps * dt_s, pose.y_m + velocity.y_mps * dt_s) +
-                       turned(pose.theta_rad + velocity.omega_radps * dt_s, q);
+    const Vector2d p = place_of(q, {pose.x_m + velocity.x_mps * dt_s, pose.y_m + velocity.y_mps * dt_s,
+                                    pose.theta_rad + velocity.omega_radps * dt_s});
     corners[i] = project(scene.camera, {p.x(), p.y(), scene.robot_height_m + scene.robot_tilt.dot(q)});
   }
   return with_edges_shifted(corners, scene.robot_shift_px);
 }
 
-std::optional<RobotPose> rough_pose(const Scene& scene, const TagCorners& seen) {
+std::optional<Pose2> rough_pose(const Scene& scene, const TagCorners& seen) {
   Vector2d mean(0, 0);
   double along = 0, across = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -118,7 +119,7 @@ std::optional<RobotPose> rough_pose(const Scene& scene, const TagCorners& seen) 
     along += q.dot(*p);
     across += q.x() * p->y() - q.y() * p->x();
   }
-  return RobotPose{mean.x(), mean.y(), std::atan2(across, along)};
+  return Pose2{mean.x(), mean.y(), std::atan2(across, along)};
 }
 
 std::vector<SceneParameter> parameters_of(const Scene& scene, const Figures& figures) {
@@ -199,9 +200,9 @@ Scene moved(const Scene& scene, const Eigen::VectorXd& change) {
   to.robot_tilt += Vector2d(at(kTilt), at(kTilt + 1));
   for (std::size_t i = 1; i < to.tags.size(); ++i) {
     const std::size_t first = kTags + 3 * (i - 1);
-    to.tags[i].x_m += at(first);
-    to.tags[i].y_m += at(first + 1);
-    to.tags[i].yaw_rad += at(first + 2);
+    to.tags[i].pose.x_m += at(first);
+    to.tags[i].pose.y_m += at(first + 1);
+    to.tags[i].pose.theta_rad += at(first + 2);
   }
   return to;
 }

@@ -7,15 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "host/base/pose2.hpp"
 #include "host/film/camera/camera.hpp"
 #include "host/film/picture/tag_corners.hpp"
 
 namespace astro::film {
 
-/// A tag on the floor: its centre and the direction of its x axis.
+/// A tag on the floor. Its pose is that of its centre and its x axis.
 struct FloorTag {
   int id = 0;
-  double x_m = 0, y_m = 0, yaw_rad = 0;
+  Pose2 pose;
 };
 
 /// All that does not change during a film. The first floor tag is the origin of the floor's frame.
@@ -30,12 +31,7 @@ struct Scene {
   double readout_s = 0;  // from the first row to the last; negative if the last is read first
 };
 
-/// The robot's tag on the floor at a moment: x and y of its centre, direction of its x axis.
-struct RobotPose {
-  double x_m = 0, y_m = 0, theta_rad = 0;
-};
-
-/// Change in a second.
+/// Change of the pose of the robot's tag in a second.
 struct RobotVelocity {
   double x_mps = 0, y_mps = 0, omega_radps = 0;
 };
@@ -54,14 +50,14 @@ TagCorners floor_corners(const Scene& scene, std::size_t index);
 /// the observed rows, and each corner is seen at its own row's time.
 ///
 /// `seen`  the observed corners, for their rows
-TagCorners robot_corners(const Scene& scene, const RobotPose& pose, const RobotVelocity& velocity,
+TagCorners robot_corners(const Scene& scene, const Pose2& pose, const RobotVelocity& velocity,
                          const TagCorners& seen);
 
 /// When the pose of a tag with these corners is seen, after the presentation time of the picture.
 double row_delay_s(const Scene& scene, const TagCorners& seen);
 
 /// The pose for which corners at the height of the robot's tag fit best, without regard to lens blur, tilt and rows.
-std::optional<RobotPose> rough_pose(const Scene& scene, const TagCorners& seen);
+std::optional<Pose2> rough_pose(const Scene& scene, const TagCorners& seen);
 
 /// What of a scene an estimator may move, as a list of numbers: each with the step of its numeric derivative, its prior, and
 /// which observations it touches.

@@ -38,7 +38,7 @@ Residual floor_residual(const Scene& scene, const Problem& problem, std::size_t 
 }
 
 Residual robot_residual(const Scene& scene, const Problem& problem, const RobotSighting& one,
-                        const RobotPose& pose) {
+                        const Pose2& pose) {
   return difference(robot_corners(scene, pose, one.velocity, one.corners), one.corners) /
          problem.errors.robot_px;
 }
@@ -79,7 +79,7 @@ double cost_of(const State& state, const Problem& problem, const std::vector<Sce
   return cost;
 }
 
-RobotPose stepped(RobotPose pose, const Eigen::Vector3d& step) {
+Pose2 stepped(const Pose2& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step[0], pose.y_m + step[1], pose.theta_rad + step[2]};
 }
 

@@ -11,7 +11,7 @@ namespace astro::film {
 /// The robot's tag in one picture.
 struct RobotSighting {
   TagCorners corners;
-  RobotPose pose;          // start value, and result
+  Pose2 pose;              // start value, and result
   RobotVelocity velocity;  // as known from neighbouring pictures
 };
 

@@ -297,7 +297,7 @@ void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
 
 bool ever_moves(const FilmTrack& track) {
   constexpr double kMoves_m = 0.02, kTurns_rad = 0.05;
-  const RobotPose& first = track.found.poses.front().pose;
+  const Pose2& first = track.found.poses.front().pose;
   return std::any_of(track.found.poses.begin(), track.found.poses.end(), [&](const FilmPose& one) {
     return std::hypot(one.pose.x_m - first.x_m, one.pose.y_m - first.y_m) > kMoves_m ||
            std::abs(one.pose.theta_rad - first.theta_rad) > kTurns_rad;

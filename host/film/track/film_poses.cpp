@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "host/film/camera/frame_pose.hpp"
@@ -16,8 +15,8 @@ constexpr double kNeighbours_s = 0.15;  // pictures further apart say nothing ab
 RobotVelocity velocity_between(const FilmPose& from, const FilmPose& to) {
   const double dt_s = to.time_s - from.time_s;
   if (!(dt_s > 0) || dt_s > 2 * kNeighbours_s) return {};
-  return {(to.pose.x_m - from.pose.x_m) / dt_s, (to.pose.y_m - from.pose.y_m) / dt_s,
-          std::remainder(to.pose.theta_rad - from.pose.theta_rad, 2 * std::numbers::pi) / dt_s};
+  const Pose2 change = difference(to.pose, from.pose);
+  return {change.x_m / dt_s, change.y_m / dt_s, change.theta_rad / dt_s};
 }
 
 void add_velocities(std::vector<FilmPose>& poses) {
@@ -70,8 +69,7 @@ void drop_unordered(std::vector<FilmPose>& poses) {
 void unwrap(std::vector<FilmPose>& poses) {
   for (std::size_t i = 1; i < poses.size(); ++i)
     poses[i].pose.theta_rad =
-        poses[i - 1].pose.theta_rad +
-        std::remainder(poses[i].pose.theta_rad - poses[i - 1].pose.theta_rad, 2 * std::numbers::pi);
+        poses[i - 1].pose.theta_rad + wrapped_rad(poses[i].pose.theta_rad - poses[i - 1].pose.theta_rad);
 }
 
 }  // namespace

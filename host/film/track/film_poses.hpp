@@ -13,7 +13,7 @@ namespace astro::film {
 struct FilmPose {
   double pts_s = 0;        // of the picture
   double time_s = 0;       // of the pose: when the tag's rows were read
-  RobotPose pose;          // heading not wrapped
+  Pose2 pose;              // heading not wrapped
   RobotVelocity velocity;  // from neighbouring pictures
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  // of x, y and theta; errors of neighbouring pictures are alike

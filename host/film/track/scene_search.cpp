@@ -23,7 +23,7 @@ std::vector<double> happened(const std::vector<FilmPose>& poses) {
   constexpr double kStep_m = 0.05, kTurn_rad = 0.1, kRest_s = 1;
   std::vector<double> sums{0};
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const RobotPose &a = poses[i - 1].pose, &b = poses[i].pose;
+    const Pose2 &a = poses[i - 1].pose, &b = poses[i].pose;
     sums.push_back(sums.back() + std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) / kStep_m +
                    std::abs(b.theta_rad - a.theta_rad) / kTurn_rad +
                    (poses[i].time_s - poses[i - 1].time_s) / kRest_s);

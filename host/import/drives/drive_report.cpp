@@ -27,11 +27,11 @@ void place_on_robot(recording::Run& run, const calibration::RunFit& fit, double 
   for (recording::TruthSample& sample : run.truth) {
     const double since_middle_us = static_cast<double>(sample.time_us - middle_us);
     sample.time_us += std::llround(1e6 * fit.clock_offset_s + skew * since_middle_us);
-    if (!std::isfinite(lever.yaw_rad)) continue;  // without headings the centre is not known
-    sample.theta_rad -= lever.yaw_rad;
-    const double c = std::cos(sample.theta_rad), s = std::sin(sample.theta_rad);
-    sample.x_m -= c * lever.x_m - s * lever.y_m;
-    sample.y_m -= s * lever.x_m + c * lever.y_m;
+    if (!std::isfinite(lever.theta_rad)) continue;  // without headings the centre is not known
+    const Pose2 robot = pose_of(sample) * lever.inverse();
+    sample.x_m = robot.x_m;
+    sample.y_m = robot.y_m;
+    sample.theta_rad = robot.theta_rad;
   }
 }
 
@@ -44,7 +44,7 @@ void dead_reckon_again(recording::Run& run, const experiment::NominalWheel& whee
   run.info.parameters["e"] = factors.e;
   run.info.parameters["kappa0"] = factors.kappa0;
   const double metres = wheel.metres_per_count();
-  recording::OdometrySample at;
+  Pose2 at;
   for (std::size_t i = 0; i < run.odometry.size(); ++i) {
     recording::OdometrySample& sample = run.odometry[i];
     const recording::OdometrySample& before = run.odometry[i == 0 ? 0 : i - 1];

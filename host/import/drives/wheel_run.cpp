@@ -91,6 +91,7 @@ std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samp
   const double count_m = counter.wheel.metres_per_count();
   const WheelSample start = samples.front();  // a counter may stand at any number
   recording::OdometrySample sample;
+  Pose2 pose;
   std::int64_t left = 0, right = 0;
   for (const WheelSample& at : samples) {
     const std::int64_t new_left = counter.counts(at.left - start.left),
@@ -98,16 +99,18 @@ std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samp
     const std::int64_t time_us = whole_microseconds(at.time_ns);
     const double right_step_m = count_m * static_cast<double>(new_right - right),
                  left_step_m = count_m * static_cast<double>(new_left - left);
-    const double theta_rad = sample.theta_rad;
-    calibration::advance(sample, right_step_m, left_step_m, factors);
+    calibration::advance(pose, right_step_m, left_step_m, factors);
     if (!odometry.empty() && time_us > sample.time_us) {
       const double dt_s = 1e-6 * static_cast<double>(time_us - sample.time_us);
       sample.v_mps = (factors.c_r * right_step_m + factors.c_l * left_step_m) / 2 / dt_s;
-      sample.omega_radps = (sample.theta_rad - theta_rad) / dt_s;
+      sample.omega_radps = (pose.theta_rad - sample.theta_rad) / dt_s;
     }
     left = new_left;
     right = new_right;
     sample.time_us = time_us;
+    sample.x_m = pose.x_m;
+    sample.y_m = pose.y_m;
+    sample.theta_rad = pose.theta_rad;
     sample.left_counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(left));
     sample.right_counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(right));
     odometry.push_back(sample);

@@ -41,14 +41,13 @@ void ContinuousOdometry::note_parameters(RobotSession& session) {
   track_.set_geometry(OdometryGeometry::of(session.numbers()));
 }
 
-void ContinuousOdometry::set_pose(RobotSession& session, double x_m, double y_m, double theta_rad,
-                                  const Symmetric3& covariance) {
-  if (!std::isfinite(theta_rad)) throw Error("a heading must be a number");
+void ContinuousOdometry::set_pose(RobotSession& session, const Pose2& pose, const Symmetric3& covariance) {
+  if (!std::isfinite(pose.theta_rad)) throw Error("a heading must be a number");
   unanswered_.reset();
   try {
-    put(session, {position(x_m), position(y_m), angle(theta_rad)}, theta_rad, covariance);
+    put(session, {position(pose.x_m), position(pose.y_m), angle(pose.theta_rad)}, pose.theta_rad, covariance);
   } catch (const robot::LinkLost&) {
-    unanswered_ = {x_m, y_m, theta_rad, covariance};
+    unanswered_ = {pose, covariance};
     throw;
   }
   restoring_ = false;
@@ -84,9 +83,10 @@ bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& 
 void ContinuousOdometry::settle_unanswered() {
   constexpr double kThere_m = 1e-3, kThere_rad = 5e-3;  // flickering counts
   const auto put = std::exchange(unanswered_, std::nullopt);
-  if (!put || std::hypot(sample_.x_m - put->x_m, sample_.y_m - put->y_m) > kThere_m) return;
-  if (std::abs(std::remainder(sample_.theta_rad - put->theta_rad, 2 * std::numbers::pi)) > kThere_rad) return;
-  track_.restart(put->theta_rad, put->covariance);
+  if (!put) return;
+  const Pose2 off = difference(pose_of(sample_), put->pose);
+  if (std::hypot(off.x_m, off.y_m) > kThere_m || std::abs(off.theta_rad) > kThere_rad) return;
+  track_.restart(put->pose.theta_rad, put->covariance);
   event_ = "the pose was set";
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "host/base/pose2.hpp"
 #include "host/live/driver/odometry_track.hpp"
 #include "host/live/driver/robot_link.hpp"
 
@@ -23,8 +24,7 @@ class ContinuousOdometry {
   void note_parameters(RobotSession& session);
 
   /// Sets the pose. Throws what the request throws: RobotRefused while the robot moves.
-  void set_pose(RobotSession& session, double x_m, double y_m, double theta_rad,
-                const calibration::Symmetric3& covariance);
+  void set_pose(RobotSession& session, const Pose2& pose, const calibration::Symmetric3& covariance);
 
   /// The next sample of telemetry. False if it is not to be published: it is older than a pose that was set, or the robot
   /// has yet to be told its last pose.
@@ -59,7 +59,7 @@ class ContinuousOdometry {
   recording::OdometrySample sample_;
   /// A pose whose request went out, and whose answer did not come: nobody knows yet whether the robot has it.
   struct Unanswered {
-    double x_m, y_m, theta_rad;
+    Pose2 pose;
     calibration::Symmetric3 covariance;
   };
   void settle_unanswered();

@@ -1,7 +1,6 @@
 #include "host/live/driver/odometry_track.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "common/fixed/wrapping.hpp"
 #include "host/calibration/motion/arc.hpp"
@@ -51,11 +50,11 @@ bool OdometryTrack::take(const recording::OdometrySample& sample) {
 
 bool OdometryTrack::follows(const recording::OdometrySample& sample, double right_m, double left_m) const {
   const double gap_s = 1e-6 * static_cast<double>(sample.time_us - last_->time_us);
-  recording::OdometrySample expected = *last_;
+  Pose2 expected = pose_of(*last_);
   calibration::advance(expected, right_m, left_m, geometry_.factors);
-  const double turn_rad = std::remainder(sample.theta_rad - expected.theta_rad, 2 * std::numbers::pi);
+  const double turn_rad = wrapped_rad(sample.theta_rad - expected.theta_rad);
   if (std::abs(turn_rad) >= kJump_rad + possible_turn_rad(gap_s)) return false;
-  if (gap_s > kGap_s) expected = *last_;
+  if (gap_s > kGap_s) expected = pose_of(*last_);
   return std::hypot(sample.x_m - expected.x_m, sample.y_m - expected.y_m) < kJump_m + possible_way_m(gap_s);
 }
 

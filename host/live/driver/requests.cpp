@@ -13,8 +13,8 @@ using calibration::Symmetric3;
 
 namespace {
 
-struct PlanarPose {
-  double x_m = 0, y_m = 0, theta_rad = 0;
+struct UncertainPose {
+  Pose2 pose;
   Symmetric3 covariance;
 };
 
@@ -29,8 +29,8 @@ bool is_covariance(const Symmetric3& p) {
 
 /// The pose on the floor that a message sets. Throws astro::Error if there is none, it is in another frame than `frame`, holds
 /// NaN or infinity, an orientation of length 0, or a covariance of (x, y, yaw) that is none.
-PlanarPose planar(const std::optional<ros2::msg::PoseWithCovarianceStamped>& message,
-                  const std::string& frame) {
+UncertainPose planar(const std::optional<ros2::msg::PoseWithCovarianceStamped>& message,
+                     const std::string& frame) {
   if (!message) throw Error("the message is damaged");
   if (message->header.frame_id != frame)
     throw Error("it is in the frame '" + message->header.frame_id + "', not in '" + frame + "'");
@@ -43,7 +43,7 @@ PlanarPose planar(const std::optional<ros2::msg::PoseWithCovarianceStamped>& mes
   const Symmetric3 covariance = on_floor(message->pose.covariance);
   // Written so that NaN is refused, too.
   if (!is_covariance(covariance)) throw Error("its covariance of x, y and yaw is not one");
-  return {at.x, at.y, ros2::heading_of(q), covariance};
+  return {{at.x, at.y, ros2::heading_of(q)}, covariance};
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void Requests::serve_all() {
   serve("pause", [this](RobotSession& session) { return robot_.driving.pause(session), "paused"; });
   serve("resume", [this](RobotSession& session) { return robot_.driving.resume(session), "resumed"; });
   serve("reset_odometry", [this](RobotSession& session) {
-    robot_.odometry.set_pose(session, 0, 0, 0, {});
+    robot_.odometry.set_pose(session, {}, {});
     return "the pose is zero";
   });
 }
@@ -127,8 +127,8 @@ void Requests::subscribe_to_velocities(CommandType type) {
 
 void Requests::set_pose(const std::optional<ros2::msg::PoseWithCovarianceStamped>& message) {
   const auto outcome = attempt([&](RobotSession& session) {
-    const PlanarPose pose = planar(message, names_.odom_frame());
-    robot_.odometry.set_pose(session, pose.x_m, pose.y_m, pose.theta_rad, pose.covariance);
+    const auto [pose, covariance] = planar(message, names_.odom_frame());
+    robot_.odometry.set_pose(session, pose, covariance);
     return "set";
   });
   if (outcome.success) return;

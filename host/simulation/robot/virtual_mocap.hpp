@@ -5,6 +5,7 @@
 #include <random>
 
 #include "hal/sim/chassis.hpp"
+#include "host/base/pose2.hpp"
 #include "host/recording/run.hpp"
 
 namespace astro::simulation {
@@ -15,7 +16,7 @@ struct MocapConfig {
   double heading_sd_rad = 0.001;
   std::uint64_t seed = 1;
   // The tracker's frame as seen from the simulated world's: an uncalibrated origin, as in any lab.
-  double origin_x_m = 1.25, origin_y_m = -0.75, origin_theta_rad = 0.4;
+  Pose2 origin{1.25, -0.75, 0.4};
   // Where the tracked body sits on the robot: ahead and to the left of the point between the wheels.
   double ahead_m = 0, left_m = 0;
 };
@@ -24,7 +25,7 @@ struct MocapConfig {
 /// white noise. Deterministic: the same seed and poses give the same samples.
 class VirtualMocap {
  public:
-  explicit VirtualMocap(const MocapConfig& config);
+  explicit VirtualMocap(const MocapConfig& config) : config_(config), random_(config.seed) {}
 
   /// Must be called once per millisecond; returns a sample when one is due.
   std::optional<recording::TruthSample> advance(std::uint64_t time_us, const sim::Pose& truth);
@@ -34,7 +35,6 @@ class VirtualMocap {
 
  private:
   MocapConfig config_;
-  double cos_, sin_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   double due_us_ = 0;

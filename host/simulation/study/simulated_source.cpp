@@ -103,8 +103,7 @@ simulation::study::Drives driven(const sim::Config& robot, const simulation::Moc
     const recording::Run recorded = simulated.drive(spec_of(setup, run));
     drives.runs.push_back(experiment::trajectory_of(recorded, simulation::study::name_of(setup, run)));
     if (!setup.is_square(run)) continue;
-    const recording::EndError end = recording::end_error(recorded);
-    drives.end_errors.push_back({end.x_m, end.y_m, end.theta_rad});
+    drives.end_errors.push_back(recording::end_error(recorded));
   }
   return drives;
 }

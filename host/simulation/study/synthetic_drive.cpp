@@ -11,7 +11,6 @@ namespace astro::simulation::study {
 namespace {
 
 using calibration::BodySample;
-using calibration::LeverArm;
 using calibration::Trajectory;
 using calibration::WheelFactors;
 using calibration::WheelSample;
@@ -19,14 +18,10 @@ using calibration::WheelSample;
 // So short that the error of assuming a constant twist per step is far below a micrometre.
 constexpr double kStep_s = 1.0 / 600;
 
-struct Pose {
-  double x_m = 0, y_m = 0, theta_rad = 0;
-};
-
 /// The whole course at every time step, in robot time.
 struct Track {
   std::vector<double> left_m, right_m;  // nominal travel
-  std::vector<Pose> pose;               // of the robot
+  std::vector<Pose2> pose;              // of the robot
 };
 
 // Fraction of a leg after `time_s` of a trapezoid of the given peak rate and acceleration, both per whole
@@ -112,17 +107,17 @@ class Drive {
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   double left_m_ = 0, right_m_ = 0, wound_rad_ = 0;
-  Pose pose_;
+  Pose2 pose_;
   Track track_;
 };
 
 double between(double a, double b, double fraction) { return a + fraction * (b - a); }
 
-Pose pose_at(const Track& track, double time_s) {
+Pose2 pose_at(const Track& track, double time_s) {
   const double at = std::clamp(time_s / kStep_s, 0.0, static_cast<double>(track.pose.size() - 1));
   const std::size_t i = std::min(static_cast<std::size_t>(at), track.pose.size() - 2);
   const double fraction = at - static_cast<double>(i);
-  const Pose &a = track.pose[i], &b = track.pose[i + 1];
+  const Pose2 &a = track.pose[i], &b = track.pose[i + 1];
   return {between(a.x_m, b.x_m, fraction), between(a.y_m, b.y_m, fraction),
           between(a.theta_rad, b.theta_rad, fraction)};
 }
@@ -137,16 +132,14 @@ double whole_counts(double travel_m, double metres_per_count) {
   return metres_per_count > 0 ? std::floor(travel_m / metres_per_count) * metres_per_count : travel_m;
 }
 
-BodySample seen(const Pose& robot, const DriveModel& model, std::mt19937_64& random) {
+BodySample seen(const Pose2& robot, const DriveModel& model, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  const double c = std::cos(robot.theta_rad), s = std::sin(robot.theta_rad);
+  const Pose2 body = robot * model.lever;
   BodySample sample;
-  sample.x_m =
-      robot.x_m + c * model.lever.x_m - s * model.lever.y_m + model.noise.sigma_xy_m * normal(random);
-  sample.y_m =
-      robot.y_m + s * model.lever.x_m + c * model.lever.y_m + model.noise.sigma_xy_m * normal(random);
-  const double heading = robot.theta_rad + model.lever.yaw_rad + model.noise.sigma_theta_rad * normal(random);
-  if (model.headings) sample.theta_rad = std::remainder(heading, 2 * std::numbers::pi);
+  sample.x_m = body.x_m + model.noise.sigma_xy_m * normal(random);
+  sample.y_m = body.y_m + model.noise.sigma_xy_m * normal(random);
+  const double heading_rad = body.theta_rad + model.noise.sigma_theta_rad * normal(random);
+  if (model.headings) sample.theta_rad = wrapped_rad(heading_rad);
   return sample;
 }
 
@@ -157,8 +150,8 @@ Course between_rests(Course path, double rest_s) {
   return path;
 }
 
-Pose mean_truth(const std::vector<BodySample>& truth, double from_s, double to_s) {
-  Pose sum;
+Pose2 mean_truth(const std::vector<BodySample>& truth, double from_s, double to_s) {
+  Point2 sum;
   double c = 0, s = 0, count = 0;
   for (const BodySample& sample : truth) {
     if (sample.time_s < from_s || sample.time_s > to_s) continue;
@@ -171,8 +164,8 @@ Pose mean_truth(const std::vector<BodySample>& truth, double from_s, double to_s
   return {sum.x_m / count, sum.y_m / count, std::atan2(s, c)};
 }
 
-Pose dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& loaded) {
-  Pose pose;
+Pose2 dead_reckoned(const std::vector<WheelSample>& wheels, const WheelFactors& loaded) {
+  Pose2 pose;
   for (std::size_t i = 1; i < wheels.size(); ++i)
     calibration::advance(pose, wheels[i].right_m - wheels[i - 1].right_m,
                          wheels[i].left_m - wheels[i - 1].left_m, loaded);
@@ -245,13 +238,9 @@ Trajectory synthetic_drive(const Course& course, const DriveModel& model, const 
 
 calibration::EndPose end_error(const Trajectory& run, const WheelFactors& loaded, double rest_s) {
   const double end_s = run.truth.back().time_s, start_s = run.truth.front().time_s;
-  const Pose from = mean_truth(run.truth, start_s, start_s + 0.9 * rest_s);
-  const Pose to = mean_truth(run.truth, end_s - 0.9 * rest_s, end_s);
-  const Pose odometry = dead_reckoned(run.wheels, loaded);
-  const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
-  const double c = std::cos(from.theta_rad), s = std::sin(from.theta_rad);
-  return {c * dx + s * dy - odometry.x_m, c * dy - s * dx - odometry.y_m,
-          std::remainder(to.theta_rad - from.theta_rad - odometry.theta_rad, 2 * std::numbers::pi)};
+  const Pose2 from = mean_truth(run.truth, start_s, start_s + 0.9 * rest_s);
+  const Pose2 to = mean_truth(run.truth, end_s - 0.9 * rest_s, end_s);
+  return difference(from.between(to), dead_reckoned(run.wheels, loaded));
 }
 
 std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t index) {

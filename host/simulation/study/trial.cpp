@@ -21,8 +21,8 @@ using calibration::WheelFactors;
 constexpr double kLineLength_m = 10;
 
 double line_miss_m(const WheelFactors& loaded, const WheelFactors& actual) {
-  EndPose end;
-  advance(end, kLineLength_m / loaded.c_r, kLineLength_m / loaded.c_l, actual);
+  Pose2 end;
+  calibration::advance(end, kLineLength_m / loaded.c_r, kLineLength_m / loaded.c_l, actual);
   return std::hypot(end.x_m - kLineLength_m, end.y_m);
 }
 

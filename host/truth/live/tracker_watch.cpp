@@ -63,7 +63,7 @@ std::optional<LiveNoise> TrackerWatch::rest() const {
     x_m.push_back(seen.pose->x_m);
     y_m.push_back(seen.pose->y_m);
     const double last = theta_rad.empty() ? seen.pose->theta_rad : theta_rad.back();
-    theta_rad.push_back(last + std::remainder(seen.pose->theta_rad - last, 2 * std::numbers::pi));
+    theta_rad.push_back(last + wrapped_rad(seen.pose->theta_rad - last));
   }
   if (x_m.size() < kFewest) return std::nullopt;
   const Scatter x = scatter_of(x_m), y = scatter_of(y_m), theta = scatter_of(theta_rad);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/base/error.hpp"
+#include "host/base/pose2.hpp"
 #include "host/truth/live/sighting.hpp"
 #include "host/truth/live/up_axis_check.hpp"
 
@@ -24,7 +25,7 @@ struct TrackerReport {
   std::size_t missing = 0;          // frames that did not come, by the more regular clock
   double longest_gap_s = 0;         // between two poses with the body
   Regularity sender, arrival;       // the two clocks by which samples can be stamped
-  std::optional<FloorPose> pose;    // the last one with the body
+  std::optional<Pose2> pose;        // the last one with the body
   std::optional<LiveNoise> rest;    // nothing while the body moves
   std::optional<Remark> objection;  // to the axis that is taken for up, from all that was seen
 };
@@ -44,7 +45,7 @@ class TrackerWatch {
  private:
   struct Seen {
     Stamp stamp;
-    std::optional<FloorPose> pose;  // nothing: lost
+    std::optional<Pose2> pose;  // nothing: lost
   };
   std::optional<LiveNoise> rest() const;
 

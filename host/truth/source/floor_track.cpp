@@ -1,7 +1,5 @@
 #include "host/truth/source/floor_track.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace astro::truth {
@@ -13,10 +11,10 @@ recording::TruthSample FloorTrack::take(std::int64_t time_us, const Pose3& pose,
   sample.valid = tracked && !repeated && is_possible(pose);
   sample.theta_rad = theta_rad_;
   if (!sample.valid) return sample;
-  const FloorPose floor = on_floor(pose, up_);
+  const Pose2 floor = on_floor(pose, up_);
   sample.x_m = floor.x_m;
   sample.y_m = floor.y_m;
-  theta_rad_ += std::remainder(floor.theta_rad - theta_rad_, 2 * std::numbers::pi);
+  theta_rad_ += wrapped_rad(floor.theta_rad - theta_rad_);
   sample.theta_rad = theta_rad_;
   return sample;
 }

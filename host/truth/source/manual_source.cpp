@@ -5,20 +5,17 @@
 #include <limits>
 #include <utility>
 
+#include "host/base/pose2.hpp"
 #include "host/base/text/trimmed.hpp"
-#include "host/recording/planar_pose.hpp"
 #include "host/recording/run_metadata.hpp"
 #include "host/truth/source/plausibility.hpp"
 
 namespace astro::truth {
 namespace {
 
-recording::PlanarPose odometry_end(const recording::Run& run) {
+Pose2 odometry_end(const recording::Run& run) {
   if (run.odometry.empty()) return {};
-  const recording::OdometrySample &start = run.odometry.front(), &end = run.odometry.back();
-  const recording::PlanarPose pose =
-      recording::in_frame_of({start.x_m, start.y_m, start.theta_rad}, {end.x_m, end.y_m, end.theta_rad});
-  return {pose.x_m, pose.y_m, recording::wrapped_rad(pose.theta_rad)};
+  return wrapped(pose_of(run.odometry.front()).between(pose_of(run.odometry.back())));
 }
 
 enum class Outcome { entered, back, redo };
@@ -73,7 +70,7 @@ class Form {
   const Ask& ask_;
   const Units& units_;
   const recording::Run& run_;
-  recording::PlanarPose odometry_;
+  Pose2 odometry_;
 };
 
 }  // namespace

@@ -8,19 +8,13 @@
 #include <numbers>
 #include <vector>
 
+#include "host/base/pose2.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/recording/planar_pose.hpp"
 
 namespace astro::truth {
 namespace {
 
-using recording::PlanarPose;
-
 constexpr double kMostOfDistance = 0.25, kLeast_m = 0.2, kMost_rad = std::numbers::pi / 3;
-
-PlanarPose pose_of(const recording::OdometrySample& sample) {
-  return {sample.x_m, sample.y_m, sample.theta_rad};
-}
 
 double length_m(const recording::Run& run) {
   double length = 0;
@@ -30,19 +24,17 @@ double length_m(const recording::Run& run) {
   return length;
 }
 
-double distance_m(const PlanarPose& a, const PlanarPose& b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-}
+double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 /// What may have been meant, and how it is said.
 struct Guess {
-  PlanarPose pose;
+  Pose2 pose;
   std::string text;
 };
 
 constexpr std::array kShifts{1e-3, 1e-2, 1e-1, 1e1, 1e2, 1e3};
 
-std::vector<Guess> one_number(const PlanarPose& typed) {
+std::vector<Guess> one_number(const Pose2& typed) {
   std::vector<Guess> list;
   for (const double shift : kShifts) {
     const double x_m = shift * typed.x_m, y_m = shift * typed.y_m;
@@ -54,7 +46,7 @@ std::vector<Guess> one_number(const PlanarPose& typed) {
   return list;
 }
 
-std::vector<Guess> both_numbers(const PlanarPose& typed) {
+std::vector<Guess> both_numbers(const Pose2& typed) {
   std::vector<Guess> list;
   const auto add = [&](double x_m, double y_m) {
     list.push_back({{x_m, y_m}, fmt::format("x = {:.4g} m, y = {:.4g} m", x_m, y_m)});
@@ -66,7 +58,7 @@ std::vector<Guess> both_numbers(const PlanarPose& typed) {
 
 /// "; x = 1.2 m would fit": the change of one number that brings the end closest to that of odometry, or of both where one is
 /// not enough to come within `most_m`.
-std::string likely_meant(const PlanarPose& typed, const PlanarPose& odometry, double most_m) {
+std::string likely_meant(const Pose2& typed, const Pose2& odometry, double most_m) {
   for (const std::vector<Guess>& guesses : {one_number(typed), both_numbers(typed)}) {
     const Guess& best = *std::ranges::min_element(
         guesses, {}, [&](const Guess& guess) { return distance_m(guess.pose, odometry); });
@@ -80,10 +72,8 @@ std::string likely_meant(const PlanarPose& typed, const PlanarPose& odometry, do
 std::string implausible_end(const recording::Run& run, const recording::TruthSample& start,
                             const recording::TruthSample& end) {
   if (run.odometry.empty()) return "";
-  const PlanarPose odometry =
-      recording::in_frame_of(pose_of(run.odometry.front()), pose_of(run.odometry.back()));
-  const PlanarPose measured =
-      recording::in_frame_of({start.x_m, start.y_m, start.theta_rad}, {end.x_m, end.y_m, end.theta_rad});
+  const Pose2 odometry = pose_of(run.odometry.front()).between(pose_of(run.odometry.back()));
+  const Pose2 measured = pose_of(start).between(pose_of(end));
   const double driven_m = length_m(run);
   const double off_m = distance_m(measured, odometry),
                most_m = std::max(kLeast_m, kMostOfDistance * driven_m);
@@ -92,7 +82,7 @@ std::string implausible_end(const recording::Run& run, const recording::TruthSam
         "this end is {:.4g} m from where odometry ends, after a run of {:.4g} m, as if it were in another "
         "unit{}.",
         off_m, driven_m, likely_meant(measured, odometry, most_m));
-  const double turned_rad = recording::wrapped_rad(measured.theta_rad - odometry.theta_rad);
+  const double turned_rad = wrapped_rad(measured.theta_rad - odometry.theta_rad);
   if (std::abs(turned_rad) > kMost_rad)
     return fmt::format(
         "this heading is {:.0f} degrees from that of odometry, as if it were in another unit or not "

@@ -1,7 +1,6 @@
 #include "host/truth/source/pose3.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace astro::truth {
 
@@ -19,11 +18,10 @@ std::optional<UpAxis> up_axis_named(std::string_view name) {
   return std::nullopt;
 }
 
-FloorPose on_floor(const Pose3& p, UpAxis up) {
-  const double turn = 2 * std::atan2(up == UpAxis::y ? p.qy : p.qz, p.qw);
-  const double theta_rad = std::remainder(turn, 2 * std::numbers::pi);
+Pose2 on_floor(const Pose3& p, UpAxis up) {
+  const double theta_rad = wrapped_rad(2 * std::atan2(up == UpAxis::y ? p.qy : p.qz, p.qw));
   // A quarter turn about x brings y up: z then points the other way along the floor.
-  return up == UpAxis::y ? FloorPose{p.x_m, -p.z_m, theta_rad} : FloorPose{p.x_m, p.y_m, theta_rad};
+  return up == UpAxis::y ? Pose2{p.x_m, -p.z_m, theta_rad} : Pose2{p.x_m, p.y_m, theta_rad};
 }
 
 }  // namespace astro::truth

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string_view>
 
+#include "host/base/pose2.hpp"
+
 /// Poses in space, as trackers give them, and what of them a robot on a floor needs.
 namespace astro::truth {
 
@@ -22,16 +24,11 @@ bool is_possible(const Pose3& pose);
 enum class UpAxis { y, z };
 std::optional<UpAxis> up_axis_named(std::string_view name);
 
-/// The pose on the floor, in a right-handed frame whose z points up.
-struct FloorPose {
-  double x_m = 0, y_m = 0;
-  double theta_rad = 0;  // -pi to pi
-};
-
-/// The heading is the turn about the up axis that is left when the tilt is taken away (swing and twist), so a
-/// small tilt does not change it, and q and -q have the same.
+/// The pose on the floor, in a right-handed frame whose z points up. The heading, in [-pi, pi], is the turn about
+/// the up axis that is left when the tilt is taken away (swing and twist), so a small tilt does not change it, and
+/// q and -q have the same.
 ///
 /// Precondition  is_possible(pose)
-FloorPose on_floor(const Pose3& pose, UpAxis up);
+Pose2 on_floor(const Pose3& pose, UpAxis up);
 
 }  // namespace astro::truth

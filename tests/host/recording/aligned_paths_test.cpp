@@ -42,7 +42,7 @@ TEST(AlignedPaths, BothPathsStartAtTheOriginAndEndWhereTheyShould) {
 TEST(AlignedPaths, TheErrorGrowsFromNothingToTheEndError) {
   const recording::Run run = far_drive().run();
   const AlignedPaths paths = align_paths(run);
-  const EndError end = end_error(run);
+  const Pose2 end = end_error(run);
   ASSERT_EQ(paths.error.size(), 300U) << "truth begins 1.2 ms after the first odometry sample";
   EXPECT_NEAR(paths.error.front().pose.x_m, 0, 1e-12);
   EXPECT_NEAR(paths.error.back().pose.x_m, end.x_m, 1e-12);

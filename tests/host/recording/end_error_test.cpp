@@ -27,7 +27,7 @@ TEST(EndError, IsAbsoluteMinusOdometrySeenFromTheStart) {
   Drive drive;
   drive.odometry_end = {0.1, 0.2, 0.05};
   drive.truth_end = {0.4, -0.1, -0.03};
-  const EndError error = end_error(drive.run());
+  const Pose2 error = end_error(drive.run());
   EXPECT_NEAR(error.x_m, 0.3, kRounding);
   EXPECT_NEAR(error.y_m, -0.3, kRounding);
   EXPECT_NEAR(error.theta_rad, -0.08, kRounding);
@@ -40,7 +40,7 @@ TEST(EndError, DoesNotDependOnWhereTheTwoFramesLie) {
   for (const double turn_rad : {0.0, 1.0, pi / 2, 3.1, -3.1, pi, -40.0}) {
     drive.truth_frame = {-4, 7, turn_rad};
     drive.odometry_frame = {2, 1, -2 * turn_rad + 0.3};
-    const EndError error = end_error(drive.run());
+    const Pose2 error = end_error(drive.run());
     EXPECT_NEAR(error.x_m, -0.27, kRounding) << turn_rad;
     EXPECT_NEAR(error.y_m, 0.32, kRounding) << turn_rad;
     EXPECT_NEAR(error.theta_rad, -0.08, kRounding) << turn_rad;
@@ -67,7 +67,7 @@ TEST(EndError, NoiseOfTruthAveragesOut) {
   double square_sum_m2 = 0;
   constexpr int kRuns = 200;
   for (drive.seed = 1; drive.seed <= kRuns; ++drive.seed) {
-    const EndError error = end_error(drive.run());
+    const Pose2 error = end_error(drive.run());
     square_sum_m2 += (error.x_m - 0.2) * (error.x_m - 0.2);
   }
   // Means of the samples between settling and the ends: 45 at the start, 45 at the end (0.5 s at 100 Hz less
@@ -102,7 +102,7 @@ TEST(EndError, OneSampleAtEachEndIsEnoughAsFromATapeMeasure) {
   recording::Run run = drive.run();
   run.truth = {{run.odometry.front().time_us, 0, 0, 0, true},
                {run.odometry.back().time_us, 0.25, -0.5, std::numeric_limits<double>::quiet_NaN(), true}};
-  const EndError error = end_error(run);
+  const Pose2 error = end_error(run);
   EXPECT_EQ(error.x_m, 0.25);
   EXPECT_EQ(error.y_m, -0.5);
   EXPECT_TRUE(std::isnan(error.theta_rad)) << "no heading was measured";

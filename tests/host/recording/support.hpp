@@ -10,8 +10,8 @@
 #include <string>
 
 #include "host/base/bytes.hpp"
+#include "host/base/pose2.hpp"
 #include "host/base/text/sense.hpp"
-#include "host/recording/planar_pose.hpp"
 #include "host/recording/run.hpp"
 
 /// What several tests of recordings need.
@@ -56,19 +56,11 @@ std::string complaint(Call&& call) {
   return "";
 }
 
-/// frame * pose: the inverse of in_frame_of.
-inline PlanarPose placed(const PlanarPose& frame, const PlanarPose& pose) {
-  const double c = std::cos(frame.theta_rad);
-  const double s = std::sin(frame.theta_rad);
-  return {frame.x_m + c * pose.x_m - s * pose.y_m, frame.y_m + s * pose.x_m + c * pose.y_m,
-          frame.theta_rad + pose.theta_rad};
-}
-
 /// A drive of 3 s at 100 Hz: `rest_s` of standstill, then from the start to `odometry_end` (as odometry sees
 /// it) and `truth_end` (as it is), both seen from the start, then standstill again.
 struct Drive {
-  PlanarPose odometry_frame, truth_frame;  // the start pose in the two frames
-  PlanarPose odometry_end, truth_end;
+  Pose2 odometry_frame, truth_frame;  // the start pose in the two frames
+  Pose2 odometry_end, truth_end;
   double rest_s = 0.5;
   double noise_m = 0, noise_rad = 0;  // of truth, one standard deviation
   unsigned seed = 1;
@@ -84,8 +76,8 @@ struct Drive {
     for (int i = 0; i <= 300; ++i) {
       const double share = std::clamp((0.01 * i - rest_s) / (3 - 2 * rest_s), 0.0, 1.0);
       const std::int64_t time_us = 5'000'000 + 10'000 * i;
-      const PlanarPose o = placed(odometry_frame, part(odometry_end, share));
-      const PlanarPose t = placed(truth_frame, part(truth_end, share));
+      const Pose2 o = odometry_frame * part(odometry_end, share);
+      const Pose2 t = truth_frame * part(truth_end, share);
       const auto counts = static_cast<std::int32_t>(10'000 * share);
       out.odometry.push_back({time_us, o.x_m, o.y_m, o.theta_rad, 0.1, 0.2, counts, -counts});
       out.truth.push_back({time_us + 1234, t.x_m + noise_m * normal(random), t.y_m + noise_m * normal(random),
@@ -95,7 +87,7 @@ struct Drive {
   }
 
  private:
-  static PlanarPose part(const PlanarPose& pose, double share) {
+  static Pose2 part(const Pose2& pose, double share) {
     return {share * pose.x_m, share * pose.y_m, share * pose.theta_rad};
   }
 };

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "host/base/pose2.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/recording/planar_pose.hpp"
 #include "host/truth/source/manual_source.hpp"
 #include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/wall_desk.hpp"
@@ -53,24 +53,24 @@ class PersonWithTape {
   void put_on_mark() { start_ = where(); }
   std::string answer(const truth::Question& question) {
     if (question.answer == truth::AnswerKind::right_or_entered_again) return "y";
-    const recording::PlanarPose end = recording::in_frame_of(start_, where());
+    const Pose2 end = start_.between(where());
     if (question.text.find("x, forward") != std::string::npos)
       return fmt::format("{:.0f}", 1000 * end.x_m + off(3));
     if (question.text.find("y, left") != std::string::npos)
       return fmt::format("{:.0f}", 1000 * end.y_m + off(3));
-    return fmt::format("{:.1f}", degrees(recording::wrapped_rad(end.theta_rad)) + off(0.5));
+    return fmt::format("{:.1f}", degrees(wrapped_rad(end.theta_rad)) + off(0.5));
   }
 
  private:
   double off(double most) { return std::uniform_real_distribution(-most, most)(random_); }
-  recording::PlanarPose where() const {
+  Pose2 where() const {
     const sim::Pose pose = board_.truth();
     return {pose.x_m, pose.y_m, pose.theta_rad};
   }
 
   sim::Board& board_;
   std::mt19937_64 random_;
-  recording::PlanarPose start_;
+  Pose2 start_;
 };
 
 struct ByTape {

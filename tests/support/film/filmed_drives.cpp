@@ -46,7 +46,7 @@ simulation::MocapConfig exact_cameras() {
   simulation::MocapConfig cameras;
   cameras.rate_hz = 1000;
   cameras.position_sd_m = cameras.heading_sd_rad = 0;
-  cameras.origin_x_m = cameras.origin_y_m = cameras.origin_theta_rad = 0;
+  cameras.origin = {};
   return cameras;
 }
 

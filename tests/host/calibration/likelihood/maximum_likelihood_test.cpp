@@ -43,7 +43,7 @@ TEST(MaximumLikelihood, FindsTheTruthWhereThereIsNoNoise) {
   EXPECT_NEAR(found.factors.b_m, model.actual.b_m, 2e-6);
   EXPECT_NEAR(found.sessions[0].lever.x_m, model.lever.x_m, 1e-5);
   EXPECT_NEAR(found.sessions[0].lever.y_m, model.lever.y_m, 1e-5);
-  EXPECT_NEAR(found.sessions[0].lever.yaw_rad, model.lever.yaw_rad, 1e-5);
+  EXPECT_NEAR(found.sessions[0].lever.theta_rad, model.lever.theta_rad, 1e-5);
 }
 
 TEST(MaximumLikelihood, ReachesTheCramerRaoBoundAndKnowsHowFarItIsOff) {
@@ -277,7 +277,7 @@ TEST(MaximumLikelihood, WorksWithPositionsAlone) {
   model.headings = false;
   const MlEstimate found = estimate_ml(squares(model, 4), model.loaded);
   expect_true(found, model.actual);
-  EXPECT_TRUE(std::isnan(found.sessions[0].lever.yaw_rad));
+  EXPECT_TRUE(std::isnan(found.sessions[0].lever.theta_rad));
   EXPECT_LT(std::abs(found.sessions[0].lever.x_m - model.lever.x_m),
             kFourSigma * found.sessions[0].lever_se.x_m);
   EXPECT_LT(std::abs(found.sessions[0].lever.y_m - model.lever.y_m),

@@ -12,11 +12,7 @@ namespace {
 
 constexpr WheelFactors kFactorsOfRobot{1.001, 0.998, 0.29, 0.01};
 
-struct Pose {
-  double x_m = 0, y_m = 0, theta_rad = 0;
-};
-
-Vector3 difference(const Pose& a, const Pose& b) {
+Vector3 change(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, a.theta_rad - b.theta_rad};
 }
 
@@ -31,8 +27,8 @@ void course(Step&& step) {
   }
 }
 
-Pose dead_reckoned(const WheelFactors& factors, const Pose& start) {
-  Pose pose = start;
+Pose2 dead_reckoned(const WheelFactors& factors, const Pose2& start) {
+  Pose2 pose = start;
   course([&](double right_m, double left_m) { advance(pose, right_m, left_m, factors); });
   return pose;
 }
@@ -62,11 +58,11 @@ Symmetric3 square(const Vector3& v) {
 
 TEST(PoseUncertainty, OfAWrongFactorIsTheSquareOfWhatItDoesToThePath) {
   constexpr double kStep = 1e-7;
-  const Pose start{1, 2, 0.7}, nominal = dead_reckoned(kFactorsOfRobot, start);
+  const Pose2 start{1, 2, 0.7}, nominal = dead_reckoned(kFactorsOfRobot, start);
   for (int factor = 0; factor < 4; ++factor) {
     WheelFactors wrong = kFactorsOfRobot;
     (factor == 0 ? wrong.c_r : factor == 1 ? wrong.c_l : factor == 2 ? wrong.b_m : wrong.e) += kStep;
-    Vector3 by = difference(dead_reckoned(wrong, start), nominal);
+    Vector3 by = change(dead_reckoned(wrong, start), nominal);
     for (double& each : by) each /= kStep;
     OdometryErrors errors;
     errors.factors(factor, factor) = 1;
@@ -76,13 +72,13 @@ TEST(PoseUncertainty, OfAWrongFactorIsTheSquareOfWhatItDoesToThePath) {
 }
 
 TEST(PoseUncertainty, FactorsThatAreWrongTogetherCancelOrAdd) {
-  const Pose start{0, 0, -1};
+  const Pose2 start{0, 0, -1};
   Vector3 sum{};
-  const Pose nominal = dead_reckoned(kFactorsOfRobot, start);
+  const Pose2 nominal = dead_reckoned(kFactorsOfRobot, start);
   WheelFactors both = kFactorsOfRobot;
   both.c_r += 1e-6;
   both.c_l += 1e-6;
-  sum = difference(dead_reckoned(both, start), nominal);
+  sum = change(dead_reckoned(both, start), nominal);
   for (double& each : sum) each /= 1e-6;
   OdometryErrors errors;
   errors.factors.topLeftCorner<2, 2>().setOnes();
@@ -90,8 +86,8 @@ TEST(PoseUncertainty, FactorsThatAreWrongTogetherCancelOrAdd) {
 }
 
 TEST(PoseUncertainty, OfTheStartTurnsAboutWhereThePoseWasSet) {
-  const Pose start{0, 0, 0.3};
-  const Pose end = dead_reckoned(kFactorsOfRobot, start);
+  const Pose2 start{0, 0, 0.3};
+  const Pose2 end = dead_reckoned(kFactorsOfRobot, start);
   const Symmetric3 of_heading{0, 0, 0, 0, 0, 1};
   expect_near(propagated({}, start.theta_rad, of_heading), square({-end.y_m, end.x_m, 1}), 1e-9);
   const Symmetric3 of_place{4, 1, 0, 9, 0, 1e-12};
@@ -103,20 +99,20 @@ TEST(PoseUncertainty, OfTheStartTurnsAboutWhereThePoseWasSet) {
 
 TEST(PoseUncertainty, OfSlipIsTheScatterOfRobotsThatSlip) {
   constexpr double kSlip_m = 1e-7;  // so small that the path's bending does not count
-  const Pose start{0, 0, 0.5};
-  const Pose nominal = dead_reckoned(kFactorsOfRobot, start);
+  const Pose2 start{0, 0, 0.5};
+  const Pose2 nominal = dead_reckoned(kFactorsOfRobot, start);
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   constexpr int kRobots = 20'000;
   Symmetric3 scatter;
   for (int i = 0; i < kRobots; ++i) {
-    Pose pose = start;
+    Pose2 pose = start;
     course([&](double right_m, double left_m) {
       const double right = right_m + std::sqrt(kSlip_m * std::abs(right_m)) * normal(random);
       const double left = left_m + std::sqrt(kSlip_m * std::abs(left_m)) * normal(random);
       advance(pose, right, left, kFactorsOfRobot);
     });
-    scatter += (1.0 / kRobots) * square(difference(pose, nominal));
+    scatter += (1.0 / kRobots) * square(change(pose, nominal));
   }
   // Twenty thousand robots tell a variance to one per cent.
   expect_near(propagated({kSlip_m, FactorCovariance::Zero()}, start.theta_rad), scatter, 0.04);

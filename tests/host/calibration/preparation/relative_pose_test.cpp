@@ -27,7 +27,7 @@ void expect_robot(const RelativePoseFit& fit, double tolerance) {
   EXPECT_NEAR(fit.b_m, kRobot.b_m, tolerance);
   EXPECT_NEAR(fit.sensor.x_m, kRobot.sensor.x_m, tolerance);
   EXPECT_NEAR(fit.sensor.y_m, kRobot.sensor.y_m, tolerance);
-  EXPECT_NEAR(fit.sensor.yaw_rad, kRobot.sensor.yaw_rad, tolerance);
+  EXPECT_NEAR(fit.sensor.theta_rad, kRobot.sensor.theta_rad, tolerance);
 }
 
 TEST(RelativePoses, GiveTheRobotBackThatTheyWereMadeFrom) {
@@ -39,8 +39,8 @@ TEST(RelativePoses, GiveTheRobotBackThatTheyWereMadeFrom) {
 TEST(RelativePoses, AreTrimmedOfTheWorst) {
   std::mt19937_64 random(2);
   std::vector<RelativePose> all = pieces(200, random);
-  all[17].x_m += 0.5;
-  all[90].theta_rad += 1;
+  all[17].moved.x_m += 0.5;
+  all[90].moved.theta_rad += 1;
   EXPECT_GT(std::abs(fit_relative_poses(all).value().b_m - kRobot.b_m), 1e-4);
   // Two pieces in 200 are a hundredth: gone after two rounds of a hundredth each.
   expect_robot(fit_relative_poses_trimmed(all, 2, 0.01).value(), 1e-9);

@@ -19,7 +19,7 @@ using simulation::study::DriveModel;
 DriveModel on_another_day(DriveModel model) {
   model.lever.x_m += 0.024;
   model.lever.y_m -= 0.018;
-  model.lever.yaw_rad += 5 * std::numbers::pi / 180;
+  model.lever.theta_rad += 5 * std::numbers::pi / 180;
   return model;
 }
 
@@ -48,7 +48,7 @@ TEST(Mounting, IsWhereTheBodySits) {
     // Beyond four standard errors a normal error lies once in 16,000; the scale is off by half a percent.
     EXPECT_NEAR(found->lever.x_m, model.lever.x_m, 4 * std::sqrt(found->covariance(0, 0)) + 5e-4);
     EXPECT_NEAR(found->lever.y_m, model.lever.y_m, 4 * std::sqrt(found->covariance(1, 1)) + 5e-4);
-    EXPECT_NEAR(found->lever.yaw_rad, model.lever.yaw_rad, 4 * std::sqrt(found->covariance(2, 2)));
+    EXPECT_NEAR(found->lever.theta_rad, model.lever.theta_rad, 4 * std::sqrt(found->covariance(2, 2)));
   }
 }
 
@@ -64,7 +64,7 @@ TEST(Mounting, OfALineLeavesOpenWhereTheBodySitsAlongIt) {
   const auto found = mounting_of(pieces_of_first(line), *fit_headings(pieces_of_first(square)));
   ASSERT_TRUE(found);
   EXPECT_GT(std::sqrt(found->covariance(0, 0)), 0.05);  // metres
-  EXPECT_NEAR(found->lever.yaw_rad, model.lever.yaw_rad, 4 * std::sqrt(found->covariance(2, 2)));
+  EXPECT_NEAR(found->lever.theta_rad, model.lever.theta_rad, 4 * std::sqrt(found->covariance(2, 2)));
 }
 
 TEST(Sessions, AreOneWhereNobodyMovedTheBody) {
@@ -135,8 +135,8 @@ TEST(Sessions, OfOneRobotPoolToTheWeightedMeanOfTheirFactors) {
   EXPECT_LT(apart(&WheelFactors::b_m, &MlErrors::b_m), 1);
   EXPECT_LT(pooled.dispersion, 1.2);
   ASSERT_EQ(pooled.sessions.size(), 2U);
-  EXPECT_NEAR(pooled.sessions[1].lever.yaw_rad - pooled.sessions[0].lever.yaw_rad,
-              later.lever.yaw_rad - model.lever.yaw_rad, 2e-3);
+  EXPECT_NEAR(pooled.sessions[1].lever.theta_rad - pooled.sessions[0].lever.theta_rad,
+              later.lever.theta_rad - model.lever.theta_rad, 2e-3);
   EXPECT_NEAR(pooled.sessions[1].lever.x_m - pooled.sessions[0].lever.x_m, 0.024, 1e-3);
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "host/base/pose2.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/recording/planar_pose.hpp"
 #include "host/truth/source/manual_source.hpp"
 #include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/desk.hpp"
@@ -63,7 +63,7 @@ class PersonWithTape {
   int asked = 0, caught = 0;
 
  private:
-  recording::PlanarPose where() {
+  Pose2 where() {
     for (const recording::TruthSample& sample : desk_.robot->take_truth()) last_ = sample;
     return {last_.x_m, last_.y_m, last_.theta_rad};
   }
@@ -73,8 +73,8 @@ class PersonWithTape {
       typed_ = notes_[std::exchange(from_notes_, "")];
       return;
     }
-    const recording::PlanarPose end = recording::in_frame_of(start_, where());
-    typed_ = {1000 * end.x_m, 1000 * end.y_m, degrees(recording::wrapped_rad(end.theta_rad))};
+    const Pose2 end = start_.between(where());
+    typed_ = {1000 * end.x_m, 1000 * end.y_m, degrees(wrapped_rad(end.theta_rad))};
     notes_[run_] = typed_;
     const auto mistake = mistakes_.find(run_);
     if (mistake == mistakes_.end() || (attentive && spoilt_.contains(run_))) return;
@@ -85,7 +85,7 @@ class PersonWithTape {
   Desk& desk_;
   Mistakes mistakes_;
   recording::TruthSample last_;
-  recording::PlanarPose start_;
+  Pose2 start_;
   Typed typed_;
   std::string run_, from_notes_;
   std::map<std::string, Typed> notes_;  // of the first reading of each run

@@ -45,7 +45,7 @@ TEST(ManualTruth, IsTheEndErrorOfTheRunInMillimetresAndDegreesUnlessTheNumberSay
     truth::ManualSource source(std::ref(person), units);
     const recording::Run run = drive_line(desk, source);
     const recording::OdometrySample& end = run.odometry.back();
-    const recording::EndError error = recording::end_error(run);
+    const Pose2 error = recording::end_error(run);
     // 1e-6: the odometry at rest is averaged, and a robot that stands moves by less than that.
     EXPECT_NEAR(error.x_m, 0.6 - end.x_m, 1e-6);
     EXPECT_NEAR(error.y_m, -0.02 - end.y_m, 1e-6);
@@ -68,7 +68,7 @@ TEST(ManualTruth, AsksAgainForWhatIsNoNumberAndTakesAnEmptyHeading) {
   Desk desk{sim::Config{}};
   Person person({"0,6", "0.6", "+0.01", ""});
   truth::ManualSource source(std::ref(person), kMetres);
-  const recording::EndError error = recording::end_error(drive_line(desk, source));
+  const Pose2 error = recording::end_error(drive_line(desk, source));
   EXPECT_EQ(person.asked.size(), 4U);
   EXPECT_THAT(person.asked[1], HasSubstr("'0,6' is not a number"));
   EXPECT_TRUE(std::isnan(error.theta_rad));
@@ -91,7 +91,7 @@ TEST(ManualTruth, AsksWhetherAnEndThatIsHardlyThatOfTheRunIsRightAndSaysWhatWoul
   // 500 for 0.5; then the heading in the wrong unit.
   Person person({"500", "-0.02", "3", "", "0.5", "-0.02", "170", "", "0.5", "-0.02", "3"});
   truth::ManualSource source(std::ref(person), kMetres);
-  const recording::EndError error = recording::end_error(drive_line(desk, source));
+  const Pose2 error = recording::end_error(drive_line(desk, source));
   EXPECT_NEAR(error.y_m, -0.02, 0.001);
   ASSERT_EQ(person.asked.size(), 11U);
   EXPECT_THAT(person.asked[3],
@@ -110,7 +110,7 @@ TEST(ManualTruth, KeepsAnImplausibleEndThatIsSaidToBeRight) {
 
 class FileTruth : public testing::Test {
  protected:
-  recording::EndError error_with(const std::string& text) {
+  Pose2 error_with(const std::string& text) {
     std::ofstream(folder_.path() / "before-line-1.csv") << text;
     truth::FileSource source(folder_.path(), [](const truth::Question&) -> std::string {
       ADD_FAILURE() << "the file is there: nobody is to be asked";
@@ -126,8 +126,7 @@ class FileTruth : public testing::Test {
 
 TEST_F(FileTruth, TakesFirstAndLastRowAsStartAndEndInAnyFrameAndUnit) {
   // Start at (1, 2) m facing +y; the robot ends 0.5 m further that way.
-  const recording::EndError error =
-      error_with("t,x_mm,y_mm,theta_deg\n0,1000,2000,90\n1,1000,2300,90\n2,1000,2500,90\n");
+  const Pose2 error = error_with("t,x_mm,y_mm,theta_deg\n0,1000,2000,90\n1,1000,2300,90\n2,1000,2500,90\n");
   EXPECT_NEAR(error.x_m, 0.5 - run_.odometry.back().x_m, 1e-6);
   EXPECT_NEAR(error.y_m, 0 - run_.odometry.back().y_m, 1e-6);
 }

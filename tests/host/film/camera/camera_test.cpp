@@ -67,7 +67,8 @@ TEST(FloorStart, StandsNearTheTruthWhicheverWayTheTagsLean) {
     ASSERT_TRUE(start);
     // Without lens, blur or the right focal length; the estimator converges from much further away.
     for (std::size_t i = 0; i < tags.size(); ++i)
-      EXPECT_NEAR(std::hypot(start->tags[i].x_m - truth.tags[i].x_m, start->tags[i].y_m - truth.tags[i].y_m),
+      EXPECT_NEAR(std::hypot(start->tags[i].pose.x_m - truth.tags[i].pose.x_m,
+                             start->tags[i].pose.y_m - truth.tags[i].pose.y_m),
                   0, 0.35);
     EXPECT_GT(start->camera.position_m.z(), 1);
   }

@@ -19,7 +19,7 @@ namespace {
 Figures exact_figures(const Scene& truth) {
   Figures figures{{truth.floor_side_m, 4e-4}, {truth.robot_side_m, 4e-4}, {truth.robot_height_m, 2e-3}};
   const FloorTag& far = truth.tags[3];
-  figures.tapes = {{1, far.id, {std::hypot(far.x_m, far.y_m), 2e-3}}};
+  figures.tapes = {{1, far.id, {std::hypot(far.pose.x_m, far.pose.y_m), 2e-3}}};
   return figures;
 }
 
@@ -42,7 +42,7 @@ std::vector<double> distances_in(const std::vector<RobotSighting>& robot) {
   std::vector<double> all;
   const std::size_t apart = robot.size() / 3;
   for (std::size_t i = 0; i + apart < robot.size(); ++i) {
-    const RobotPose &a = robot[i].pose, &b = robot[i + apart].pose;
+    const Pose2 &a = robot[i].pose, &b = robot[i + apart].pose;
     all.push_back(std::hypot(b.x_m - a.x_m, b.y_m - a.y_m));
   }
   return all;
@@ -142,7 +142,7 @@ TEST(FramePose, HasTheCovarianceThatItsErrorsHave) {
   double chi = 0;
   int count = 0;
   for (RobotSighting one : support::seen_robot(scene, 300)) {
-    const RobotPose truth = one.pose;
+    const Pose2 truth = one.pose;
     support::add_noise(one.corners, kSigma_px, random);
     const auto found = frame_pose(scene, one.corners, rough_pose(scene, one.corners).value(), one.velocity);
     ASSERT_TRUE(found);

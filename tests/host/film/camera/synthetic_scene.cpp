@@ -30,15 +30,15 @@ film::Scene scene_with(const film::Camera& camera) {
   scene.robot_height_m = 0.12;
   scene.robot_tilt = {0.004, -0.003};
   scene.readout_s = 0.02;
-  scene.tags = {{1, -1.2, -0.2, 0.3}, {2, 1.2, -0.2, 1.1}, {3, -1.5, 1.4, -2},
-                {4, 1.5, 1.4, 0},     {5, 0.1, 1.6, 0.7},  {6, 0, -0.4, -1}};
+  scene.tags = {{1, {-1.2, -0.2, 0.3}}, {2, {1.2, -0.2, 1.1}}, {3, {-1.5, 1.4, -2}},
+                {4, {1.5, 1.4, 0}},     {5, {0.1, 1.6, 0.7}},  {6, {0, -0.4, -1}}};
   // The first is the frame.
-  const film::FloorTag origin = scene.tags.front();
-  const Eigen::Matrix3d back = film::rotation_by({0, 0, -origin.yaw_rad});
+  const Pose2 origin = scene.tags.front().pose;
+  const Eigen::Matrix3d back = film::rotation_by({0, 0, -origin.theta_rad});
   const Eigen::Vector3d at(origin.x_m, origin.y_m, 0);
   for (film::FloorTag& tag : scene.tags) {
-    const Eigen::Vector3d p = back * (Eigen::Vector3d(tag.x_m, tag.y_m, 0) - at);
-    tag = {tag.id, p.x(), p.y(), std::remainder(tag.yaw_rad - origin.yaw_rad, 2 * std::numbers::pi)};
+    const Eigen::Vector3d p = back * (Eigen::Vector3d(tag.pose.x_m, tag.pose.y_m, 0) - at);
+    tag.pose = {p.x(), p.y(), std::remainder(tag.pose.theta_rad - origin.theta_rad, 2 * std::numbers::pi)};
   }
   scene.camera.position_m = back * (camera.position_m - at);
   scene.camera.rotation = camera.rotation * back.transpose();
@@ -59,7 +59,7 @@ std::vector<film::TagCorners> seen_floor(const film::Scene& scene) {
 
 std::vector<film::RobotSighting> seen_robot(const film::Scene& scene, std::size_t count) {
   std::vector<film::RobotSighting> all;
-  const film::FloorTag &a = scene.tags[0], &b = scene.tags[3];
+  const Pose2 &a = scene.tags[0].pose, &b = scene.tags[3].pose;
   const double length = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m),
                angle = std::atan2(b.y_m - a.y_m, b.x_m - a.x_m);
   for (std::size_t i = 0; i < count; ++i) {

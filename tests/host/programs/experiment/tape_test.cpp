@@ -5,8 +5,8 @@
 #include <fstream>
 #include <map>
 
+#include "host/base/pose2.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/recording/planar_pose.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"
@@ -40,7 +40,7 @@ class Robot {
 
   /// Where it stands. The time of a fast simulator stands still while nobody talks to it, so somebody talks until the
   /// cameras have sent a picture of the robot at rest.
-  recording::PlanarPose where() {
+  Pose2 where() {
     for (drain(); !drain();) support::astrolabe({"info", "--port", port()});
     return pose_;
   }
@@ -51,7 +51,7 @@ class Robot {
   support::Simulator simulator_{
       {"--fast", "--true-ed", "1.00416", "--true-wheelbase", "0.28861", "--seed", "3"}};
   truth::SocketSource cameras_;
-  recording::PlanarPose pose_;
+  Pose2 pose_;
 };
 
 struct Answers {
@@ -76,9 +76,9 @@ class Tape : public testing::Test {
 
   /// What the tape says, in millimetres and degrees.
   Answers measured() {
-    const recording::PlanarPose end = recording::in_frame_of(start_, robot_.where());
+    const Pose2 end = start_.between(robot_.where());
     return {fmt::format("{:.0f}", 1000 * end.x_m), fmt::format("{:.0f}", 1000 * end.y_m),
-            fmt::format("{:.1f}", degrees(recording::wrapped_rad(end.theta_rad)))};
+            fmt::format("{:.1f}", degrees(wrapped_rad(end.theta_rad)))};
   }
 
   static void answer(TmuxProgram& umbmark, const Answers& answers) {
@@ -94,7 +94,7 @@ class Tape : public testing::Test {
   }
 
   Robot robot_;
-  recording::PlanarPose start_;
+  Pose2 start_;
 };
 
 TEST_F(Tape, SaysBeforeItStartsWhatThereIsToDoHowLongItTakesAndWhereToPutTheTape) {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/recording/planar_pose.hpp"
+#include "host/base/pose2.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"
@@ -41,12 +41,12 @@ class Wall : public testing::Test {
     return any;
   }
   /// The time of a fast simulator stands still while nobody talks to it, so somebody talks until the cameras have sent a picture.
-  recording::PlanarPose where() {
+  Pose2 where() {
     for (drain(); !drain();) support::astrolabe({"info", "--port", simulator_.port()});
     return pose_;
   }
   /// What a ruler shows, in mm: the robot began at right angles to the wall.
-  double ruler_mm() { return 1000 * (kGap_m - recording::in_frame_of(start_, where()).x_m); }
+  double ruler_mm() { return 1000 * (kGap_m - start_.between(where()).x_m); }
 
   bool asks_for_gap(TmuxProgram& program) {
     return program.shows("drives on after Enter):", [this] { drain(); });
@@ -61,7 +61,7 @@ class Wall : public testing::Test {
   support::Simulator simulator_{{"--fast", "--true-ed", "1.00416", "--true-wheelbase", "0.28861", "--scale",
                                  "1.01", "--seed", "4", "--wall", fmt::format("{}", kGap_m)}};
   truth::SocketSource cameras_;
-  recording::PlanarPose start_, pose_;
+  Pose2 start_, pose_;
 };
 
 TEST_F(Wall, GuidesThroughACalibrationCatchesAMistypedGapAndLoadsTheFactors) {

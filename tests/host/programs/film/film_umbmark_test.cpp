@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/recording/planar_pose.hpp"
+#include "host/base/pose2.hpp"
 #include "host/truth/live/socket_source.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/base/thorough.hpp"
@@ -26,12 +26,11 @@ constexpr double kTrueEd = 1.00416, kScale = 1.003, kTrueBase_m = 0.28861;
 
 stage::PoseTrack track_of(const std::vector<recording::TruthSample>& samples) {
   constexpr double kInterval_s = 0.01;
-  const recording::PlanarPose home{samples.front().x_m, samples.front().y_m, samples.front().theta_rad};
+  const Pose2 home = pose_of(samples.front());
   std::vector<stage::FloorPose> poses;
   double before_rad = 0;
   const auto at = [&](const recording::TruthSample& sample) {
-    const recording::PlanarPose pose =
-        recording::in_frame_of(home, {sample.x_m, sample.y_m, sample.theta_rad});
+    const Pose2 pose = home.between(pose_of(sample));
     before_rad += std::remainder(pose.theta_rad - before_rad, 2 * std::numbers::pi);
     return stage::compose({0, 0, 94 * stage::kDegree}, {pose.x_m, pose.y_m, before_rad});
   };

@@ -32,21 +32,19 @@ TEST(VirtualMocap, SeesSixtyTimesASecond) {
 
 TEST(VirtualMocap, SeesThePoseInItsOwnFrame) {
   MocapConfig config = without_noise();
-  config.origin_x_m = 2;
-  config.origin_y_m = -1;
-  config.origin_theta_rad = std::acos(-1.0) / 2;
+  config.origin = {2, -1, std::acos(-1.0) / 2};
   VirtualMocap mocap(config);
   const auto sample = mocap.advance(0, {3, 0.5, 7});
   ASSERT_TRUE(sample);
   EXPECT_NEAR(sample->x_m, 2 - 0.5, 1e-12);  // a quarter turn takes x to y and y to -x
   EXPECT_NEAR(sample->y_m, -1 + 3, 1e-12);
-  EXPECT_NEAR(sample->theta_rad, 7 + config.origin_theta_rad, 1e-12);
+  EXPECT_NEAR(sample->theta_rad, 7 + config.origin.theta_rad, 1e-12);
   EXPECT_TRUE(sample->valid);
 }
 
 TEST(VirtualMocap, SeesTheBodyWhereItSitsOnTheRobot) {
   MocapConfig config = without_noise();
-  config.origin_x_m = config.origin_y_m = config.origin_theta_rad = 0;
+  config.origin = {};
   config.ahead_m = 0.1;
   config.left_m = 0.02;
   for (const double theta_rad : {0.0, 1.0, 4.0}) {
@@ -62,7 +60,7 @@ TEST(VirtualMocap, SeesTheBodyWhereItSitsOnTheRobot) {
 
 TEST(VirtualMocap, HasWhiteNoiseOfTheStatedSize) {
   MocapConfig config;
-  config.origin_x_m = config.origin_y_m = config.origin_theta_rad = 0;
+  config.origin = {};
   VirtualMocap mocap(config);
   const auto samples = watch(mocap, {}, 1'000'000);
   const auto n = static_cast<double>(samples.size());

@@ -47,7 +47,7 @@ TEST(VirtualTracker, ItsFramesHaveThePoseOnTheFloorAndLeaveAfterTheLatency) {
     ASSERT_TRUE(frame) << i;
     EXPECT_EQ(frame->number, i + 1);
     EXPECT_EQ(frame->exposed_us, 10'000 * i);
-    const truth::FloorPose pose = truth::on_floor(frame->pose, truth::UpAxis::z);
+    const Pose2 pose = truth::on_floor(frame->pose, truth::UpAxis::z);
     EXPECT_DOUBLE_EQ(pose.x_m, 0.1 * i);
     EXPECT_DOUBLE_EQ(pose.y_m, -1);
     EXPECT_NEAR(std::remainder(pose.theta_rad - 0.1 * i, 2 * M_PI), 0, 1e-12)

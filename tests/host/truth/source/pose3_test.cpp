@@ -25,9 +25,9 @@ Pose3 with_y_up(const Pose3& p) { return {p.x_m, p.z_m, -p.y_m, p.qx, p.qz, -p.q
 
 TEST(OnFloor, TheHeadingIsTheTurnAboutTheUpAxisWhicheverThatIs) {
   for (const double theta_rad : {-3.0, -0.4, 0.0, 1.0, 2.5}) {
-    const FloorPose z = on_floor(tilted(theta_rad, 0), UpAxis::z);
-    const FloorPose y = on_floor(with_y_up(tilted(theta_rad, 0)), UpAxis::y);
-    for (const FloorPose& pose : {z, y}) {
+    const Pose2 z = on_floor(tilted(theta_rad, 0), UpAxis::z);
+    const Pose2 y = on_floor(with_y_up(tilted(theta_rad, 0)), UpAxis::y);
+    for (const Pose2& pose : {z, y}) {
       EXPECT_EQ(pose.x_m, 1);
       EXPECT_EQ(pose.y_m, 2);
       EXPECT_NEAR(pose.theta_rad, theta_rad, 1e-12);

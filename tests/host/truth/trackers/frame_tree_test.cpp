@@ -84,7 +84,7 @@ TEST(FrameTree, APoseIsComposedOfAllTransformsBetween) {
   tree.put(edge("world", "markers", 2, M_PI / 2), false);
   tree.put(edge("markers", "base_link", -0.5), true);
   const Pose3 pose = tree.pose(tree.chain("base_link", "world"));
-  const FloorPose floor = on_floor(pose, UpAxis::z);
+  const Pose2 floor = on_floor(pose, UpAxis::z);
   EXPECT_NEAR(floor.x_m, 2, 1e-15);
   EXPECT_NEAR(floor.y_m, -0.5, 1e-15);
   EXPECT_NEAR(floor.theta_rad, M_PI / 2, 1e-15);
