@@ -165,6 +165,7 @@ void add_tracker_options(console::Command command, simulation::NetworkTrackerCon
 
 constexpr Advice kServedRobotAdvice[] = {
     {simulation::ServerProblem::path_in_use, ": stop it or choose another --pty"},
+    {simulation::ServerProblem::flash_in_use, ": stop it or choose another --flash"},
     {simulation::ServerProblem::path_taken, ": choose another path for --pty"},
     {simulation::ServerProblem::path_refused, ": choose another path for --pty"},
     {simulation::ServerProblem::path_too_long, ": choose a shorter one for --pty"},

@@ -291,7 +291,7 @@ void Server::claim_flash() {
   flash_claim_ = PathClaim::of(config_.flash);
   if (!flash_claim_)
     throw Error(fmt::format("the robot's flash '{}' is in use by another simulator", config_.flash.string()),
-                ServerProblem::path_in_use, {config_.flash.string()});
+                ServerProblem::flash_in_use, {config_.flash.string()});
 }
 
 void Server::save_flash() {

@@ -2,8 +2,9 @@
 
 #include <iostream>
 
-#include "host/emulator/core/machine.hpp"
+#include "host/emulator/core/chip.hpp"
 #include "host/emulator/robot/teensy.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/target/firmware_file.hpp"
 
 namespace astro::emulator {
@@ -35,14 +36,8 @@ TEST(Boot, AFetchFromABusyFlashEndsTheRun) {
   teensy.flash().erase_sector(FlashChip::kParameters);
   teensy.run_for(1ms);  // the image needs nothing from the flash
   teensy.chip().cpu().set(UC_ARM_REG_PC, Memory::kFlash + 0x1031);
-  try {
-    teensy.run_for(1ms);
-    FAIL() << "code ran in a flash that erases";
-  } catch (const Stopped& stopped) {
-    EXPECT_NE(std::string(stopped.what()).find("0x60001030 is executed while the flash is busy"),
-              std::string::npos)
-        << stopped.what();
-  }
+  EXPECT_THAT([&] { teensy.run_for(1ms); },
+              support::ThrowsTelling(ChipProblem::busy_flash_executed, "0x60001030"));
 }
 
 TEST(Boot, AResetWhileTheFlashErasesIsReported) {

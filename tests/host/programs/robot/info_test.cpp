@@ -173,7 +173,8 @@ TEST_F(Sim, IsTheRobotOfItsFlashWhichNoOtherOneUsesMeanwhile) {
     first = id_at(here);
     const Outcome second = astrolabe({"sim", "--pty", there, "--flash", flash});
     EXPECT_EQ(second.code, 1);
-    EXPECT_THAT(second.err, HasSubstr("flash' is in use by another simulator"));
+    EXPECT_THAT(second.err,
+                HasSubstr("flash' is in use by another simulator: stop it or choose another --flash"));
   }
   support::Program robot({ASTROLABE_PROGRAM, "sim", "--pty", there, "--flash", flash});
   ASSERT_TRUE(support::eventually([&] { return robot.err().find("next") != std::string::npos; }))
