@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "host/base/text/degrees.hpp"
 
@@ -178,13 +179,14 @@ class Square {
   /// After the first push, which began in front of the wall.
   void require_started() const {
     if (has_turned(0) && has_turned(1)) return;
-    const std::string which = has_turned(1)   ? "the left wheel does"
-                              : has_turned(0) ? "the right wheel does"
-                                              : "the wheels do";
+    std::vector<std::string> standing;
+    if (!has_turned(0)) standing.emplace_back("left");
+    if (!has_turned(1)) standing.emplace_back("right");
+    const std::string which = standing.size() == 1 ? "the " + standing[0] + " wheel does" : "the wheels do";
     throw NotFlush(
         which + " not turn on the voltage of the set force, unless the robot touches the wall already" +
             kFaceWall,
-        WallProblem::not_at_wall);
+        WallProblem::wheels_stand, std::move(standing));
   }
 
   /// With a motor or an encoder that is reversed the regulator drives its wheel away from what it wants, ever faster. A wheel that the
@@ -194,10 +196,10 @@ class Square {
     const Wheels way_m{since.left_m, since.right_m};
     for (std::size_t side = 0; side < 2; ++side) {
       touched_ = touched_ || (has_turned(side) && stall_.stood_s(side) >= kStands_s);
+      const std::string wheel = side == 0 ? "left" : "right";
       if (way_m[side] < -kBackwards_m && watch_.now().speed_mps[side] < -kRunsAway_mps)
-        fail(fmt::format("by its encoder the {} wheel runs backwards on a forward voltage",
-                         side == 0 ? "left" : "right"),
-             WallProblem::runs_backwards);
+        fail("by its encoder the " + wheel + " wheel runs backwards on a forward voltage",
+             WallProblem::runs_backwards, {wheel});
     }
     if (crept_m() < -kBack_m)
       fail("the robot drives backwards on a forward voltage", WallProblem::runs_backwards);
@@ -205,7 +207,7 @@ class Square {
     if (std::abs(turned_rad) > kMostTurn_rad)
       fail(fmt::format("the robot has turned by {:.0f} degrees {}", degrees(std::abs(turned_rad)),
                        touched_ ? "against the wall and is not flush" : "on its way to the wall"),
-           touched_ ? WallProblem::not_at_wall : WallProblem::runs_backwards);
+           touched_ ? WallProblem::turned_away : WallProblem::runs_backwards);
   }
 
   void pause() {
@@ -229,17 +231,19 @@ class Square {
           std::max(std::abs(watch_.now().speed_mps[0]), std::abs(watch_.now().speed_mps[1])) < kStands_mps;
       settled_s = pressed && still ? settled_s + step_s_ : 0;
       require_sense();
-      if (crept_m() > within_m) fail("no wall was touched within " + in_mm(within_m));
+      if (crept_m() > within_m)
+        fail("no wall was touched within " + in_mm(within_m), WallProblem::no_wall, {in_mm(within_m)});
       if (watch_.now().time_us > end_us_)
-        fail(fmt::format("the robot was not flush after {:.0f} s", time_s_));
+        fail(fmt::format("the robot was not flush after {:.0f} s", time_s_), WallProblem::not_at_wall);
     }
     pause();
     return settled_s >= kSettled_s;
   }
 
-  [[noreturn]] void fail(const std::string& why, WallProblem problem = WallProblem::not_at_wall) {
+  [[noreturn]] void fail(const std::string& why, WallProblem problem, std::vector<std::string> values = {}) {
     pause();
-    throw NotFlush(problem == WallProblem::not_at_wall ? why + kFaceWall : why, problem);
+    const bool by_its_place = problem != WallProblem::runs_backwards;
+    throw NotFlush(by_its_place ? why + kFaceWall : why, problem, std::move(values));
   }
   static std::string in_mm(double length_m) { return fmt::format("{:.0f} mm", 1000 * length_m); }
 

@@ -22,7 +22,7 @@ namespace astro::wall {
 inline constexpr double kCreep_mps = 0.015;
 inline constexpr double kStall_s = 0.6, kPause_s = 0.2;
 
-/// The robot did not become flush: which of these happened is in the sentence.
+/// The robot did not become flush:
 ///   no wheel turned on the voltage of the set force
 ///   a wheel ran away backwards on a forward voltage: its motor or its encoder is reversed
 ///   the robot has turned by more than 0.8 rad, which no wall does to a robot that faces it

@@ -85,7 +85,8 @@ class Experiment {
     if (move.kind == Kind::gap) {
       if (readings_contradict())
         hooks_.drive.notice(
-            {"the readings of the ruler contradict each other; another one shows which is wrong"});
+            {"the readings of the ruler contradict each other; another one shows which is wrong",
+             WallProblem::readings_contradict});
       driver_.drive(std::array{Leg{-move.away_m, 0}}, factors);
       read_gap();
     } else {
@@ -159,10 +160,12 @@ class Experiment {
       std::erase_if(series().readings,
                     [&](const auto& reading) { return reading.squaring + 1 == series().squarings.size(); });
       if (++doubts_ == kDoubtsInARow)
-        throw Error(doubt->fact +
-                    ": see that the wall is straight and firm, the front of the robot flat, and the floor "
-                    "free and clean");
-      hooks_.drive.notice({doubt->fact + "; that way does not count, and is driven again"});
+        throw Error(
+            doubt->fact +
+                ": see that the wall is straight and firm, the front of the robot flat, and the floor "
+                "free and clean",
+            doubt->kind);
+      hooks_.drive.notice({doubt->fact + "; that way does not count, and is driven again", doubt->kind});
       journal_.drive.push_back({{flush}, {}});
       return;
     }

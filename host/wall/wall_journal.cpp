@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
@@ -163,31 +166,46 @@ WallJournal journal_in(const json& value) {
   return journal;
 }
 
+bool is_within(double value, double least, double most) { return value >= least && value <= most; }
+
+void require_possible(bool possible, const std::string& sentence, const std::vector<std::string>& values) {
+  if (!possible) throw Error(sentence, WallProblem::impossible_plan, values);
+}
+
+/// `name`: in WallPlan.
+void require_within(double value, double least, double most, const char* name, const std::string& sentence) {
+  require_possible(is_within(value, least, most), sentence, {name, fmt::format("{:g}", value)});
+}
+
 }  // namespace
 
 void WallPlan::check() const {
-  const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
-  require(within(line_m, 0.5, 20), fmt::format("laps of {:g} m are not between 0.5 and 20 m", line_m));
-  require(within(gap_m, 0.2, 20), fmt::format("a gap of {:g} m is not between 0.2 and 20 m", gap_m));
-  require(readings >= 0 && readings <= 20,
-          fmt::format("{} readings of the ruler are not between 0 and 20", readings));
-  require(within(speed_mps, 0.05, 2),
-          fmt::format("a speed of {:g} m/s is not between 0.05 and 2", speed_mps));
-  require(within(yaw_rate_radps, 0.1, 10),
-          fmt::format("a yaw rate of {:g} rad/s is not between 0.1 and 10", yaw_rate_radps));
-  require(within(most_minutes, 1, 120), fmt::format("{:g} minutes are not between 1 and 120", most_minutes));
-  require(within(push.force_N, 0.5, 100),
-          fmt::format("a push of {:g} N is not between 0.5 and 100", push.force_N));
-  require(within(push.stall_Nm, 1e-3, 1000) && within(push.stall_V, 1, 100),
-          fmt::format("{:g} N m at {:g} V is no motor of a small robot", push.stall_Nm, push.stall_V));
-  require(within(body.length_m, 0.05, 2) && within(body.width_m, 0.05, 2) &&
-              within(body.front_to_axle_m, 0, body.length_m),
-          fmt::format(
-              "a body {:g} m long and {:g} m wide with the axle {:g} m behind its front is no small robot",
-              body.length_m, body.width_m, body.front_to_axle_m));
-  for (const double target : {targets.E_d, targets.b})
-    require(within(target, 1e-6, 0.1),
-            fmt::format("a standard error of {:g} is not between 0.000001 and 0.1", target));
+  require_within(line_m, 0.5, 20, "line_m",
+                 fmt::format("laps of {:g} m are not between 0.5 and 20 m", line_m));
+  require_within(gap_m, 0.2, 20, "gap_m", fmt::format("a gap of {:g} m is not between 0.2 and 20 m", gap_m));
+  require_within(readings, 0, 20, "readings",
+                 fmt::format("{} readings of the ruler are not between 0 and 20", readings));
+  require_within(speed_mps, 0.05, 2, "speed_mps",
+                 fmt::format("a speed of {:g} m/s is not between 0.05 and 2", speed_mps));
+  require_within(yaw_rate_radps, 0.1, 10, "yaw_rate_radps",
+                 fmt::format("a yaw rate of {:g} rad/s is not between 0.1 and 10", yaw_rate_radps));
+  require_within(most_minutes, 1, 120, "most_minutes",
+                 fmt::format("{:g} minutes are not between 1 and 120", most_minutes));
+  require_within(push.force_N, 0.5, 100, "push",
+                 fmt::format("a push of {:g} N is not between 0.5 and 100", push.force_N));
+  require_possible(
+      is_within(push.stall_Nm, 1e-3, 1000) && is_within(push.stall_V, 1, 100),
+      fmt::format("{:g} N m at {:g} V is no motor of a small robot", push.stall_Nm, push.stall_V), {"push"});
+  require_possible(
+      is_within(body.length_m, 0.05, 2) && is_within(body.width_m, 0.05, 2) &&
+          is_within(body.front_to_axle_m, 0, body.length_m),
+      fmt::format(
+          "a body {:g} m long and {:g} m wide with the axle {:g} m behind its front is no small robot",
+          body.length_m, body.width_m, body.front_to_axle_m),
+      {"body"});
+  for (const auto& [name, target] : {std::pair{"E_d", targets.E_d}, std::pair{"b", targets.b}})
+    require_within(target, 1e-6, 0.1, name,
+                   fmt::format("a standard error of {:g} is not between 0.000001 and 0.1", target));
 }
 
 std::optional<WallJournal> read_wall_journal(const std::filesystem::path& folder) {

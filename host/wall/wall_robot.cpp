@@ -46,13 +46,17 @@ double push_voltage_V(const PushLimit& limit, const WallRobot& robot) {
   const double voltage_V = limit.force_N / force_per_V;
   constexpr double kToStart = 2, kBelowStall = 0.8;
   if (voltage_V < kToStart * kS_V)
-    throw Error(fmt::format(
-        "a push of {:g} N is {:.2f} V, on which the wheels would not start turning; {:.0f} N would do",
-        limit.force_N, voltage_V, std::ceil(kToStart * kS_V * force_per_V)));
+    throw Error(
+        fmt::format(
+            "a push of {:g} N is {:.2f} V, on which the wheels would not start turning; {:.0f} N would do",
+            limit.force_N, voltage_V, std::ceil(kToStart * kS_V * force_per_V)),
+        WallProblem::push_too_weak, {fmt::format("{:g}", limit.force_N)});
   if (voltage_V > kBelowStall * robot.half_voltage_V)
-    throw Error(fmt::format(
-        "a push of {:g} N is {:.1f} V, which the robot would take for a stall; up to {:.0f} N is possible",
-        limit.force_N, voltage_V, std::floor(kBelowStall * robot.half_voltage_V * force_per_V)));
+    throw Error(
+        fmt::format("a push of {:g} N is {:.1f} V, which the robot would take for a stall; up to {:.0f} N is "
+                    "possible",
+                    limit.force_N, voltage_V, std::floor(kBelowStall * robot.half_voltage_V * force_per_V)),
+        WallProblem::push_too_strong, {fmt::format("{:g}", limit.force_N)});
   return voltage_V;
 }
 

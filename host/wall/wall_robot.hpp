@@ -8,10 +8,20 @@
 /// What a robot's parameters and its owner say about it, as far as a wall matters.
 namespace astro::wall {
 
-/// What ends a calibration against a wall, or keeps it from going on.
+/// What ends a calibration against a wall, keeps it from going on or is worth a notice. Values: of
+/// wheels_stand the wheels, of runs_backwards the wheel if it is one, of no_wall how far the robot went, of a
+/// push its force in N; of impossible_plan the name in WallPlan and what it is. A squaring that does not
+/// count is of the kind of its SquaringDoubt (wall_estimate.hpp).
 enum class WallProblem {
   not_at_wall,
+  wheels_stand,
+  turned_away,
+  no_wall,
   runs_backwards,
+  readings_contradict,
+  impossible_plan,
+  push_too_weak,
+  push_too_strong,
   journal_damaged,
   other_settings,
   other_robot,

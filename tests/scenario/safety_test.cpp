@@ -1,10 +1,11 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <vector>
 
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // A robot whose host falls silent or tells it to stop, in virtual time to the millisecond.
@@ -70,13 +71,13 @@ TEST_F(LeftAlone, AnotherHostClearsTheFaultAndDrivesOn) {
   for (int ms = 0; ms < 200; ++ms) desk.robot->step();
   robot::Client second(std::make_unique<simulation::InProcessTransport>(desk.robot));
   second.connect();
-  std::vector<std::string> notices;
+  std::vector<Remark> notices;
   robot::DriveHooks hooks;
-  hooks.notice = [&](const Remark& notice) { notices.push_back(notice.sentence); };
+  hooks.notice = [&](const Remark& notice) { notices.push_back(notice); };
   robot::DriveSession drive(second, hooks);
   drive.run(robot::line(0.5));
-  ASSERT_EQ(notices.size(), 1U);
-  EXPECT_NE(notices[0].find("link_lost"), std::string::npos);
+  EXPECT_THAT(notices,
+              testing::ElementsAre(support::Tells(robot::DriveProblem::faults_left_behind, "link_lost")));
 }
 
 TEST_F(LeftAlone, StopRampsToRestAsFastAsTheLimitAllows) {

@@ -9,12 +9,16 @@
 namespace astro::dds {
 namespace {
 
+Error unknown_value(const std::string& name, const std::string& text, const std::string& known) {
+  return Error(name + " is '" + text + "': it has to be " + known, DiscoveryProblem::unknown_value,
+               {name, text});
+}
+
 int domain_in(const std::string& text) {
   int domain = -1;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), domain);
   if (problem != std::errc() || end != text.data() + text.size() || domain < 0 || domain > kMostDomains)
-    throw Error("ROS_DOMAIN_ID is '" + text + "': it has to be a whole number from 0 to " +
-                std::to_string(kMostDomains));
+    throw unknown_value("ROS_DOMAIN_ID", text, "a whole number from 0 to " + std::to_string(kMostDomains));
   return domain;
 }
 
@@ -32,15 +36,14 @@ Range range_named(const std::string& text) {
   if (text == "SYSTEM_DEFAULT") return Range::subnet;  // DDS's own default
   const auto range = range_in(text);
   if (!range)
-    throw Error("ROS_AUTOMATIC_DISCOVERY_RANGE is '" + text +
-                "': it has to be OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT");
+    throw unknown_value("ROS_AUTOMATIC_DISCOVERY_RANGE", text, "OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT");
   return *range;
 }
 
 bool only_localhost(const std::string& text) {
   if (text.empty() || text == "0") return false;
   if (text == "1") return true;
-  throw Error("ROS_LOCALHOST_ONLY is '" + text + "': it has to be 0 or 1");
+  throw unknown_value("ROS_LOCALHOST_ONLY", text, "0 or 1");
 }
 
 }  // namespace

@@ -8,6 +8,10 @@
 /// Which other computers a participant looks for, and is seen by.
 namespace astro::dds {
 
+/// What is wrong with an environment variable. Values: of unknown_value its name and what it is, of
+/// peer_without_address the peer.
+enum class DiscoveryProblem { unknown_value, peer_without_address };
+
 enum class Range {
   off,        // nobody, not even on this computer
   localhost,  // this computer

@@ -47,7 +47,9 @@ std::vector<rtps::Locator_t> locators_of_peers(const std::vector<std::string>& p
     const std::set<std::string> addresses = rtps::IPLocator::isIPv4(peer)
                                                 ? std::set<std::string>{peer}
                                                 : rtps::IPLocator::resolveNameDNS(peer).first;
-    if (addresses.empty()) throw Error("ROS_STATIC_PEERS names '" + peer + "', which has no IPv4 address");
+    if (addresses.empty())
+      throw Error("ROS_STATIC_PEERS names '" + peer + "', which has no IPv4 address",
+                  DiscoveryProblem::peer_without_address, {peer});
     for (const std::string& address : addresses) locators.push_back(locator_of(address, 0));
   }
   return locators;

@@ -26,28 +26,33 @@ std::string excerpt(std::string_view text) {
 const json& member(const json& object, const char* name) {
   if (object.is_object())
     if (const auto found = object.find(name); found != object.end()) return *found;
-  throw Error(fmt::format("there is no '{}' in the message", name));
+  throw Error(fmt::format("there is no '{}' in the message", name), MessageProblem::missing, {name});
 }
 
 const json& list(const json& object, const char* name) {
   const json& value = member(object, name);
-  if (!value.is_array()) throw Error(fmt::format("'{}' is not a list", name));
+  if (!value.is_array())
+    throw Error(fmt::format("'{}' is not a list", name), MessageProblem::not_a_list, {name});
   if (value.size() > kMostListed)
-    throw Error(fmt::format("'{}' has more than {} entries", name, kMostListed));
+    throw Error(fmt::format("'{}' has more than {} entries", name, kMostListed),
+                MessageProblem::too_many_entries, {name});
   return value;
 }
 
 std::uint32_t number(const json& value, const char* name) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX)
-    throw Error(fmt::format("'{}' is not a whole number of 32 bits", name));
+    throw Error(fmt::format("'{}' is not a whole number of 32 bits", name), MessageProblem::not_32_bits,
+                {name});
   return value.get<std::uint32_t>();
 }
 
 std::string text(const json& value, const char* name) {
-  if (!value.is_string()) throw Error(fmt::format("'{}' is not a text", name));
+  if (!value.is_string())
+    throw Error(fmt::format("'{}' is not a text", name), MessageProblem::not_a_text, {name});
   const auto& found = value.get_ref<const std::string&>();
   if (found.size() > ros2::kLongestName)
-    throw Error(fmt::format("'{}' is longer than {} characters", name, ros2::kLongestName));
+    throw Error(fmt::format("'{}' is longer than {} characters", name, ros2::kLongestName),
+                MessageProblem::name_too_long, {name});
   return found;
 }
 
@@ -116,15 +121,17 @@ ClientMessage watch_graph(const json&) {
 
 json parse_bounded(std::string_view text) {
   if (text.size() > kLongestText)
-    throw Error(fmt::format("a text of {} bytes is longer than {}", text.size(), kLongestText));
+    throw Error(fmt::format("a text of {} bytes is longer than {}", text.size(), kLongestText),
+                MessageProblem::text_too_long);
   const auto check_depth = [](int depth, json::parse_event_t, const json&) {
-    if (depth > kDeepest) throw Error(fmt::format("values are nested deeper than {}", kDeepest));
+    if (depth > kDeepest)
+      throw Error(fmt::format("values are nested deeper than {}", kDeepest), MessageProblem::nested_too_deep);
     return true;
   };
   try {
     return json::parse(text.begin(), text.end(), check_depth);
   } catch (const json::exception&) {
-    throw Error(fmt::format("'{}' is not JSON", excerpt(text)));
+    throw Error(fmt::format("'{}' is not JSON", excerpt(text)), MessageProblem::not_json);
   }
 }
 
@@ -145,7 +152,9 @@ ClientMessage parse_text(std::string_view text) {
   const json object = parse_bounded(text);
   const std::string operation = text_in(object, "op");
   const auto found = kOperations.find(operation);
-  if (found == kOperations.end()) throw Error(fmt::format("there is no '{}' here", excerpt(operation)));
+  if (found == kOperations.end())
+    throw Error(fmt::format("there is no '{}' here", excerpt(operation)), MessageProblem::unknown_operation,
+                {excerpt(operation)});
   return found->second(object);
 }
 
@@ -164,9 +173,12 @@ ClientMessage parse_binary(ByteView frame) {
     call.data = in.take(in.left());
     message = call;
   } else if (in.ok()) {
-    throw Error(fmt::format("there are no binary frames of kind {} here", kind));
+    throw Error(fmt::format("there are no binary frames of kind {} here", kind),
+                MessageProblem::unknown_frame, {std::to_string(kind)});
   }
-  if (!in.ok()) throw Error(fmt::format("a binary frame of {} bytes is too short", frame.size()));
+  if (!in.ok())
+    throw Error(fmt::format("a binary frame of {} bytes is too short", frame.size()),
+                MessageProblem::frame_too_short);
   return message;
 }
 

@@ -15,6 +15,25 @@
 /// Source  Foxglove WebSocket protocol, version 1; subprotocols foxglove.websocket.v1 and foxglove.sdk.v1.
 namespace astro::foxglove {
 
+/// What is wrong with a message of a viewer. Values: the member of the JSON that it is about; of
+/// unknown_operation the first characters of the "op", of unknown_frame the number.
+enum class MessageProblem {
+  not_json,
+  text_too_long,
+  nested_too_deep,
+  unknown_operation,
+  missing,
+  not_a_list,
+  too_many_entries,
+  not_32_bits,
+  not_a_text,
+  name_too_long,
+  beyond_64_bits,
+  no_parameter_value,
+  frame_too_short,
+  unknown_frame
+};
+
 struct Subscribe {
   struct Subscription {
     std::uint32_t id = 0;  // chosen by the client

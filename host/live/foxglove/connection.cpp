@@ -96,12 +96,13 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
   Clock::time_point heard_at() const override { return heard_at_; }
   std::optional<Clock::time_point> stuck_since() const override { return stuck_since_; }
 
-  void dismiss(std::string_view why) override {
+  void dismiss(const Remark& why) override {
     if (session_ != nullptr)
-      rules_.notice({fmt::format("the viewer at {} was disconnected: {}", peer_, why)});
+      rules_.notice(
+          {fmt::format("the viewer at {} was disconnected: {}", peer_, why.sentence), why.kind, {peer_}});
     if (session_ == nullptr || stuck_since_) return cut();
     heard_at_ = Clock::now();  // until it has gone, others are idler
-    stream_.async_close({websocket::close_code::try_again_later, beast::string_view(why.data(), why.size())},
+    stream_.async_close({websocket::close_code::try_again_later, why.sentence},
                         [self = shared_from_this()](error_code) {});
     stream_.next_layer().finish();
   }

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "host/base/error.hpp"
@@ -48,8 +47,8 @@ class Connection {
   virtual Clock::time_point heard_at() const = 0;
   /// Since when nothing of what waits for the client could be sent; nothing if it reads.
   virtual std::optional<Clock::time_point> stuck_since() const = 0;
-  /// Ends the connection at once, and tells a client why as far as it reads.
-  virtual void dismiss(std::string_view why) = 0;
+  /// Ends the connection at once, and tells a client why as far as it reads. `why`: a clause.
+  virtual void dismiss(const Remark& why) = 0;
 };
 
 std::shared_ptr<Connection> make_connection(boost::asio::ip::tcp::socket socket, ConnectionRules& rules);

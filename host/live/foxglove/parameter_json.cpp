@@ -5,6 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/live/driver/parameter_table.hpp"
+#include "host/live/foxglove/client_messages.hpp"
 
 namespace astro::foxglove {
 namespace {
@@ -25,7 +26,7 @@ ros2::msg::ParameterValue real(double number) {
 
 ros2::msg::ParameterValue integer(const json& number) {
   if (number.is_number_unsigned() && number.get<std::uint64_t>() > INT64_MAX)
-    throw Error("a whole number does not fit into 64 bits");
+    throw Error("a whole number does not fit into 64 bits", MessageProblem::beyond_64_bits);
   ros2::msg::ParameterValue value = value_of(live::ParameterType::integer);
   value.integer_value = number.get<std::int64_t>();
   return value;
@@ -67,7 +68,8 @@ ros2::msg::ParameterValue parameter_value_in(const json& parameter) {
     return value;
   }
   if (!found->is_string())
-    throw Error("the value of a parameter is neither a number nor a text nor a truth value");
+    throw Error("the value of a parameter is neither a number nor a text nor a truth value",
+                MessageProblem::no_parameter_value);
   ros2::msg::ParameterValue value = value_of(live::ParameterType::text);
   value.string_value = found->get<std::string>();
   return value;

@@ -42,7 +42,8 @@ tcp::acceptor listening(asio::io_context& io, const Address& wanted) {
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error)
     throw Error(fmt::format("cannot listen at {}, port {}: {}", wanted.ip, wanted.port, error.message()),
-                error == asio::error::address_in_use ? Kind(ServerProblem::port_taken) : Kind());
+                error == asio::error::address_in_use ? Kind(ServerProblem::port_taken) : Kind(),
+                {std::to_string(wanted.port)});
   return acceptor;
 }
 
@@ -162,7 +163,8 @@ class Server::Impl {
     for (const auto& each : connections_)
       if (!each->watches() && (idlest == nullptr || each->heard_at() < idlest->heard_at()))
         idlest = each.get();
-    if (idlest != nullptr) idlest->dismiss("it watched nothing, and another one wants to connect");
+    if (idlest != nullptr)
+      idlest->dismiss({"it watched nothing, and another one wants to connect", ViewerProblem::idle});
     std::erase_if(connections_, [](const auto& connection) { return connection->ended(); });
   }
 
@@ -174,7 +176,8 @@ class Server::Impl {
           (stuck == nullptr || *each->stuck_since() < *stuck->stuck_since()))
         stuck = each.get();
     if (stuck != nullptr && Connection::Clock::now() - *stuck->stuck_since() >= kStuck)
-      stuck->dismiss("it did not read what it watched, and another one wants to watch");
+      stuck->dismiss(
+          {"it did not read what it watched, and another one wants to watch", ViewerProblem::stuck});
   }
 
   void accept_later() {

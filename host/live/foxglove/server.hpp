@@ -10,7 +10,11 @@
 
 namespace astro::foxglove {
 
+/// Values: the number of the port.
 enum class ServerProblem { port_taken };
+
+/// Why a viewer is disconnected. Values: its address.
+enum class ViewerProblem { idle, stuck };
 
 struct Address {
   std::string ip = "127.0.0.1";  // of this computer's networks; "0.0.0.0" or "::": all of them

@@ -67,7 +67,7 @@ void Course::check_room() const {
     if (std::abs(moved_m(side, origin_)) > bounds_.distance_m)
       throw Error(fmt::format("stopped: the {} wheel got further than {:g} m from its start", name(side),
                               bounds_.distance_m),
-                  BenchProblem::out_of_room);
+                  BenchProblem::out_of_room, {name(side), fmt::format("{:g}", bounds_.distance_m)});
 }
 
 // Ends the measurement if the robot turns on the spot or a wheel does not turn.
@@ -77,11 +77,12 @@ void Course::check_sense(double voltage_V, const Moment& from) const {
     const double forward_m = moved_m(side, from) * std::copysign(1.0, voltage_V);
     if (forward_m < -kBackward_m)
       throw Error(fmt::format("stopped: the {} wheel counts backward under forward voltage", name(side)),
-                  BenchProblem::counts_backward);
+                  BenchProblem::counts_backward, {name(side)});
     if (std::abs(voltage_V) >= stands_V && std::abs(forward_m) < 10 * bench_.facts().count_m[at(side)])
       throw Error(fmt::format("stopped: the {} wheel does not turn, or does not count, at {:.1f} V",
                               name(side), std::abs(voltage_V)),
-                  stands_V < kFeeble_V ? BenchProblem::stands_at_little_voltage : BenchProblem::stands);
+                  stands_V < kFeeble_V ? BenchProblem::stands_at_little_voltage : BenchProblem::stands,
+                  {name(side)});
   }
 }
 

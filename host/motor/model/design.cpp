@@ -7,6 +7,9 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "host/base/error.hpp"
 
@@ -114,16 +117,30 @@ std::optional<double> observer_for(DesignTask task) {
   return std::nullopt;
 }
 
+struct Reason {
+  DesignProblem problem;
+  const char* words;
+};
+
+Reason reason_of(Limit because, bool observer_helps) {
+  if (because == Limit::noise)
+    return {DesignProblem::encoder_rattles, "the steps of the encoder would rattle the motors"};
+  if (observer_helps) return {DesignProblem::observer_lags, "the wheel speed observer lags too much for it"};
+  return {DesignProblem::tick_lags, "the observer and the tick of 1 ms lag too much for it"};
+}
+
 [[noreturn]] void refuse(const DesignTask& task, double largest_radps, Limit because) {
   const auto observer = observer_for(task);
-  const std::string more =
-      observer ? fmt::format("; an observer_bandwidth of {:.0f} rad/s would allow it", *observer) : "";
-  const std::string what = because == Limit::noise ? "the steps of the encoder would rattle the motors"
-                           : observer              ? "the wheel speed observer lags too much for it"
-                                                   : "the observer and the tick of 1 ms lag too much for it";
-  throw Error(fmt::format("a bandwidth of {:.3g} Hz is too much, {}: at most {:.1f} Hz are possible",
-                          hertz(task.bandwidth_radps), what, hertz(largest_radps)) +
-              more);
+  const Reason reason = reason_of(because, observer.has_value());
+  std::vector<std::string> values{fmt::format("{:.3g}", hertz(task.bandwidth_radps)),
+                                  fmt::format("{:.1f}", hertz(largest_radps))};
+  std::string sentence = fmt::format("a bandwidth of {} Hz is too much, {}: at most {} Hz are possible",
+                                     values[0], reason.words, values[1]);
+  if (observer) {
+    values.push_back(fmt::format("{:.0f}", *observer));
+    sentence += "; an observer_bandwidth of " + values[2] + " rad/s would allow it";
+  }
+  throw Error(sentence, reason.problem, std::move(values));
 }
 
 double crossover_for(const DesignTask& task, double largest_radps) {
@@ -201,10 +218,12 @@ double quantisation_speed_mps(double observer_radps, double count_m, double tick
 Design design_gains(const DesignTask& wanted) {
   DesignTask task = wanted;
   if (!(task.motor.kV > 0) || !(task.motor.kA > 0))
-    throw Error("the measured motor model has no positive kV and kA: measure again with more voltage");
+    throw Error("the measured motor model has no positive kV and kA: measure again with more voltage",
+                DesignProblem::no_motor_model);
   const Largest largest = largest_crossover(task);
   if (largest.crossover_radps == 0)
-    throw Error("the encoder is too coarse for any speed loop with this observer: lower observer_bandwidth");
+    throw Error("the encoder is too coarse for any speed loop with this observer: lower observer_bandwidth",
+                DesignProblem::encoder_too_coarse);
   // Rounded down, so that the figure in the refusal is itself accepted.
   const double most_radps = bandwidth_at(task, largest.crossover_radps);
   if (task.bandwidth_radps == 0) {

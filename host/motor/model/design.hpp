@@ -16,6 +16,11 @@
 ///          steps would cause more than 0.2 V rms on the motors.
 namespace astro::motor {
 
+/// What keeps a loop from being designed. The last three are about a bandwidth; they have the wanted one and
+/// the largest possible one in Hz and, if there is one, the observer_bandwidth that would allow the wanted
+/// one.
+enum class DesignProblem { no_motor_model, encoder_too_coarse, encoder_rattles, observer_lags, tick_lags };
+
 /// The wheel's speed loop as the firmware closes it, exactly as sampled: motor and wheel with the voltage
 /// held for a tick, counts, the tracking observer, PI.
 ///

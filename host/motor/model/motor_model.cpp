@@ -101,7 +101,8 @@ Eigen::Vector3d standard_errors(const Equations& equations, const Eigen::VectorX
 
 Solution solve(const std::vector<Pair>& windows) {
   if (windows.size() < kLeastWindows)
-    throw Error("turned too little to be measured: allow more distance or more voltage");
+    throw Error("turned too little to be measured: allow more distance or more voltage",
+                MotorProblem::turned_too_little);
   const Equations equations = equations_of(windows);
   const Eigen::Matrix3d inverse = (equations.instruments.transpose() * equations.rows).inverse();
   const Eigen::Vector3d k = inverse * (equations.instruments.transpose() * equations.voltage);

@@ -10,6 +10,18 @@
 /// Counts per revolution from rolling the robot by hand along a tape measure.
 namespace astro::motor {
 
+/// What a roll finds. `other_gear` has the ratio that was found and the robot's, `wheels_differ` how many
+/// times their counts the left and the right wheel give, `counts_nothing` the wheel.
+enum class RollProblem {
+  other_decoding,
+  other_gear,
+  other_diameter,
+  wheels_differ,
+  counts_nothing,
+  too_short,
+  unlikely_length
+};
+
 /// The counts of a roll, and the robot's parameters.
 struct Roll {
   std::array<double, 2> counts{};  // left, right; signs do not matter

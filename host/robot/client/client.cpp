@@ -143,7 +143,7 @@ void Client::dispatch_event(Body body) {
   if (const auto missed = protocol::decode<protocol::EventsMissed>(body); missed.ok())
     counts_.missed_events += missed->count;
   if (const auto farewell = protocol::decode<Farewell>(body); farewell.ok())
-    throw LinkLost("lost " + name() + ": " + std::string(fact(farewell->reason)));
+    throw LinkLost("lost " + name() + ": " + std::string(fact(farewell->reason)), farewell->reason, {name()});
   std::apply([&](auto&... listeners) { (deliver(listeners), ...); }, listeners_);
   const bool booted = body.front() == protocol::Booted::kId;
   if (booted && waiting_for_ != 0 && !connecting_) {

@@ -9,6 +9,19 @@
 /// Who answers at a port: whether it is a robot, of which protocol version, and the same one as before.
 namespace astro::robot {
 
+/// Why a port leads to no robot that this program can talk to. Values: the port; then of the outdated ones
+/// the robot's protocol version and this program's, and of another robot its name and that of the robot
+/// before.
+enum class HandshakeProblem {
+  nothing_comes,
+  no_frames,
+  looped_back,
+  robot_does_not_hear,
+  program_outdated,
+  firmware_outdated,
+  other_robot
+};
+
 /// What came back from a port at which no robot answered.
 struct NoAnswer {
   Remark why_silent;  // what the transport knows; without a fact: nothing

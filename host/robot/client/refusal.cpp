@@ -33,14 +33,19 @@ std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint1
          "): " + (why.empty() ? clause(code) + addition(code, detail) : std::string(why));
 }
 
+Remark remark_on(std::string_view what, protocol::ErrorCode code, std::uint16_t detail, std::string_view why,
+                 const std::vector<std::string>& values) {
+  Remark remark{sentence(what, code, detail, why), RobotProblem::refused, values};
+  if (values.empty()) remark.values = {std::string(what)};
+  if (code != protocol::ErrorCode::faulted || !why.empty()) return remark;
+  return {remark.sentence, RobotProblem::faulted, {std::string(name(static_cast<Fault>(detail)))}};
+}
+
 }  // namespace
 
 RobotRefused::RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
-                           std::string_view why)
-    : Error(sentence(what, code, detail, why),
-            code == protocol::ErrorCode::faulted && why.empty() ? Kind(RobotProblem::faulted) : Kind()),
-      code_(code),
-      detail_(detail) {}
+                           std::string_view why, const std::vector<std::string>& values)
+    : Error(remark_on(what, code, detail, why, values)), code_(code), detail_(detail) {}
 
 std::string fault_names(std::uint32_t mask) {
   std::string names;

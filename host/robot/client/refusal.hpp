@@ -3,22 +3,26 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/protocol/enums.hpp"
 #include "host/base/error.hpp"
 
 namespace astro::robot {
 
-/// What keeps a robot from driving.
-enum class RobotProblem { faulted };
+/// Why a robot does not do what it is asked. Values: of `faulted` the faults, and the program that caused an
+/// emergency stop by its process id and command line where it is known; of `refused` the request, or a
+/// parameter and its value.
+enum class RobotProblem { faulted, refused };
 
 /// The robot answered a request with ErrorReply: it was not carried out and has changed nothing.
 class RobotRefused : public Error {
  public:
   /// `what` follows "the robot refused": the request's name, or a value as "c_R = 1.7".
   /// `why` is a clause with the reason for this particular request; "": the general meaning of the code.
+  /// `values`: empty for `what` alone.
   RobotRefused(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
-               std::string_view why = {});
+               std::string_view why = {}, const std::vector<std::string>& values = {});
 
   protocol::ErrorCode code() const { return code_; }
 

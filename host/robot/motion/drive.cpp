@@ -6,6 +6,7 @@
 #include "host/base/text/numbers.hpp"
 #include "host/robot/client/restore.hpp"
 #include "host/robot/motion/other_program.hpp"
+#include "host/robot/motion/paths.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::robot {
@@ -26,8 +27,16 @@ constexpr std::size_t kMostSegments = 0xFFFF;
 std::int32_t micro(double value, const char* what) {
   const double steps = std::round(value * 1e6);
   if (!(std::abs(steps) <= 0x7FFFFFFF))
-    throw Error(std::string(what) + " of " + to_text(value) + " is not possible");
+    throw Error(std::string(what) + " of " + to_text(value) + " is not possible",
+                PathProblem::impossible_number, {what, to_text(value)});
   return static_cast<std::int32_t>(steps);
+}
+
+/// Behind other values of an error: a program at this port; nothing if it is not known.
+std::vector<std::string> with_program(std::vector<std::string> values, std::uint32_t pid,
+                                      const CommandLine& command) {
+  if (pid != 0) values.insert(values.end(), {std::to_string(pid), std::string(command.view())});
+  return values;
 }
 
 }  // namespace
@@ -72,8 +81,9 @@ void DriveSession::end() {
     rest_and_disarm();
   } catch (const std::exception& error) {
     const auto* known = dynamic_cast<const Error*>(&error);
-    constexpr const char* kMayMove = "the robot did not confirm that it stopped, and may still be moving: ";
-    throw NotStopped(known == nullptr ? Remark{std::string(kMayMove) + error.what()} : known->in(kMayMove));
+    Remark why = known == nullptr ? Remark{error.what()} : known->remark();
+    if (why.kind == Kind()) why.kind = DriveProblem::stop_unconfirmed;
+    throw NotStopped(why.in("the robot did not confirm that it stopped, and may still be moving: "));
   }
   if (fault_) fail(*fault_);
 }
@@ -100,7 +110,7 @@ Status DriveSession::status_unless_stopped() {
   const PortUsers users = port_users(client_);
   throw Error(another_program(users.stopper_pid, users.stopper_command) +
                   " has stopped the robot since this one drove it last: start again once it may drive",
-              DriveProblem::stopped_by_another);
+              DriveProblem::stopped_by_another, with_program({}, users.stopper_pid, users.stopper_command));
 }
 
 /// A program that was killed leaves an armed robot behind; the robot notices it by its time-out.
@@ -118,13 +128,17 @@ void DriveSession::wait_until_free() {
 void DriveSession::arm() {
   const FaultReport report = client_.request(GetFaults{});
   if ((report.latched & ~kFaultsLeftBehind) != 0) {
-    throw DriveFault("the robot is not armed because of a latched fault: " + fault_names(report.latched),
-                     first_fault(report.latched & ~kFaultsLeftBehind));
+    const std::string faults = fault_names(report.latched);
+    throw DriveFault("the robot is not armed because of a latched fault: " + faults,
+                     first_fault(report.latched & ~kFaultsLeftBehind), {faults});
   }
   if (report.latched != 0) {
     wait_until_power_off();  // if its host died a moment ago, it is still ramping down
     client_.request(ClearFaults{});
-    hooks_.notice({"cleared " + fault_names(report.latched) + ", which an earlier drive left behind"});
+    const std::string faults = fault_names(report.latched);
+    hooks_.notice({"cleared " + faults + ", which an earlier drive left behind",
+                   DriveProblem::faults_left_behind,
+                   {faults}});
   }
   fault_.reset();
   status_unless_stopped();  // the last thing before
@@ -167,7 +181,7 @@ void DriveSession::wait_for_progress() {
 void DriveSession::ask_for_progress() {
   const Status status = client_.request(GetStatus{});
   if (status.latched_faults != 0) fail(first_fault(status.latched_faults));
-  if (status.mode == Mode::disarmed) fail_ended("the drive ended early", "disarmed");
+  if (status.mode == Mode::disarmed) fail_ended("disarmed");
   const bool idle = status.mode == Mode::idle && status.queued_segments == 0;
   if (idle) {
     command(Rest{});  // refused if somebody has stopped the robot
@@ -179,8 +193,7 @@ void DriveSession::ask_for_progress() {
 void DriveSession::check() {
   if (fault_) fail(*fault_);
   if (booted_) throw LinkLost("the robot at " + client_.name() + " has restarted: the drive is lost");
-  if (aborted_ != 0 && !stopping_)
-    fail_ended("segment " + std::to_string(aborted_) + " was aborted", "stopped");
+  if (aborted_ != 0 && !stopping_) fail_ended("stopped", aborted_);
   if (!stopping_ && hooks_.interrupted()) {
     end();
     throw Interrupted("stopped: the robot is at rest and disarmed");
@@ -229,7 +242,7 @@ void DriveSession::explain(const RobotRefused& refused) {
   if (refused.code() == ErrorCode::faulted) fail(static_cast<Fault>(refused.detail()));
   if (refused.code() == ErrorCode::not_armed) {
     const bool paused = client_.request(GetStatus{}).mode == Mode::paused;
-    fail_ended("the drive ended early", paused ? "paused" : "stopped");
+    fail_ended(paused ? "paused" : "stopped");
   }
   if (refused.code() == ErrorCode::busy && port_users(client_).driver_pid != 0) fail_busy();
 }
@@ -245,26 +258,29 @@ void DriveSession::fail_armed() {
 void DriveSession::fail_busy() {
   const PortUsers users = port_users(client_);
   throw Error("the robot is driving for " + another_program(users.driver_pid, users.driver_command),
-              DriveProblem::driven_by_another);
+              DriveProblem::driven_by_another, with_program({}, users.driver_pid, users.driver_command));
 }
 
 /// The reason may arrive after the end: after a fault the robot reports the aborted segment first.
-void DriveSession::fail_ended(const std::string& what, const std::string& done_to_robot) {
+void DriveSession::fail_ended(const std::string& done_to_robot, std::uint16_t aborted) {
   client_.learns_of_stop(client_.request(GetStatus{}));  // whoever goes on after this does so on purpose
   const FaultReport report = client_.request(GetFaults{});
   if (report.latched != 0) fail(report.first != Fault::none ? report.first : first_fault(report.latched));
   const PortUsers users = port_users(client_);
-  throw Error(what + ": " + another_program(users.stopper_pid, users.stopper_command) + " " + done_to_robot +
-              " the robot");
+  const std::string segment = std::to_string(aborted);
+  throw Error(
+      (aborted != 0 ? "segment " + segment + " was aborted: " : "the drive ended early: ") +
+          another_program(users.stopper_pid, users.stopper_command) + " " + done_to_robot + " the robot",
+      aborted != 0 ? DriveProblem::segment_aborted : DriveProblem::ended_early,
+      with_program({aborted != 0 ? segment : done_to_robot}, users.stopper_pid, users.stopper_command));
 }
 
 void DriveSession::fail(Fault fault) {
-  std::string cause = "the robot stopped by itself: ";
-  if (fault == Fault::emergency_stop) {
-    const PortUsers users = port_users(client_);
-    cause = another_program(users.stopper_pid, users.stopper_command) + " stopped the robot: ";
-  }
-  throw DriveFault(cause + std::string(name(fault)), fault);
+  const std::string named(name(fault));
+  if (fault != Fault::emergency_stop) throw DriveFault("the robot stopped by itself: " + named, fault);
+  const PortUsers users = port_users(client_);
+  throw DriveFault(another_program(users.stopper_pid, users.stopper_command) + " stopped the robot: " + named,
+                   fault, with_program({named}, users.stopper_pid, users.stopper_command));
 }
 
 }  // namespace astro::robot

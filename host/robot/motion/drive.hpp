@@ -4,6 +4,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/safety/fault.hpp"
 #include "host/base/error.hpp"
@@ -14,8 +16,18 @@
 
 namespace astro::robot {
 
-/// What keeps a program from driving a robot that others use, too.
-enum class DriveProblem { stopped_by_another, armed_for_another, driven_by_another };
+/// What keeps a program from driving a robot, ends its drive or is worth a notice. Values: of segment_aborted
+/// the segment, of ended_early what was done to the robot ("stopped"), of faults_left_behind the faults that
+/// were cleared; then the process id and the command line of the other program where they are known.
+enum class DriveProblem {
+  stopped_by_another,
+  armed_for_another,
+  driven_by_another,
+  segment_aborted,
+  ended_early,
+  stop_unconfirmed,
+  faults_left_behind
+};
 
 /// Faults that a program leaves behind that ended or lost its link while the robot drove. Whoever arms the robot next may clear
 /// them; any other fault is for people.
@@ -28,14 +40,17 @@ Fault first_fault(std::uint32_t mask);
 class DriveFault : public Error {
  public:
   DriveFault(const std::string& sentence, Fault fault)
-      : Error(sentence, RobotProblem::faulted), fault_(fault) {}
+      : DriveFault(sentence, fault, {std::string(name(fault))}) {}
+  DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values)
+      : Error(sentence, RobotProblem::faulted, std::move(values)), fault_(fault) {}
   Fault fault() const { return fault_; }
 
  private:
   Fault fault_;
 };
 
-/// The robot did not confirm that it is at rest and disarmed after a stop request: it may still move.
+/// The robot did not confirm that it is at rest and disarmed after a stop request: it may still move. Of the
+/// kind of what went wrong, or DriveProblem::stop_unconfirmed if that has none.
 class NotStopped : public Error {
  public:
   using Error::Error;
@@ -105,7 +120,7 @@ class DriveSession {
   void command(const M& motion);
   void explain(const RobotRefused& refused);
   [[noreturn]] void fail(Fault fault);
-  [[noreturn]] void fail_ended(const std::string& what, const std::string& done_to_robot);
+  [[noreturn]] void fail_ended(const std::string& done_to_robot, std::uint16_t aborted = 0);
   [[noreturn]] void fail_busy();
   [[noreturn]] void fail_armed();
 

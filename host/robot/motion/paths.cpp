@@ -18,7 +18,8 @@ T scaled(double value, double scale, const char* what) {
   const double steps = std::round(value * scale);
   // 2^63 is a double, 2^63 - 1 is not: compare from below.
   if (!(std::abs(steps) < std::ldexp(1.0, std::numeric_limits<T>::digits))) {
-    throw Error(std::string(what) + " of " + to_text(value) + " is not possible");
+    throw Error(std::string(what) + " of " + to_text(value) + " is not possible",
+                PathProblem::impossible_number, {what, to_text(value)});
   }
   return static_cast<T>(steps);
 }

@@ -11,6 +11,9 @@
 /// Errors  astro::Error where a number is not finite or outside what a segment can hold.
 namespace astro::robot {
 
+/// What no path or speed can be. Values: what it is, with its unit, and the number.
+enum class PathProblem { impossible_number };
+
 using Path = std::vector<protocol::AddSegment>;
 
 /// Speed limits; 0: the robot's own limit.

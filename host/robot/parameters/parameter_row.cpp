@@ -36,13 +36,16 @@ std::string with_unit(const ParameterRow& row, const std::string& number) {
 }
 
 RawValue raw_number(const ParameterRow& row, double value) {
-  const std::string what = row.name + " = " + describe(row, value);
-  if (!std::isfinite(value)) throw Error(what + " is not a number");
+  const std::string written = describe(row, value), what = row.name + " = " + written;
+  if (!std::isfinite(value))
+    throw Error(what + " is not a number", ParameterProblem::not_a_number, {row.name});
   const bool whole = row.kind == ParameterKind::integer || row.kind == ParameterKind::flag;
-  if (whole && value != std::nearbyint(value)) throw Error(what + " is not possible: it takes whole numbers");
+  if (whole && value != std::nearbyint(value))
+    throw Error(what + " is not possible: it takes whole numbers", ParameterProblem::not_whole, {row.name});
   const double steps = std::round(to_steps(row, value));
   if (steps < row.minimum || steps > row.maximum) {
-    throw Error(what + " is out of range: " + range_of(row));
+    throw Error(what + " is out of range: " + range_of(row), ParameterProblem::out_of_range,
+                {row.name, written, range_of(row)});
   }
   return {static_cast<std::int32_t>(steps), {}};
 }
@@ -51,7 +54,8 @@ RawValue raw_text(const ParameterRow& row, const std::string& text) {
   const auto size = static_cast<std::int64_t>(text.size());
   if (!Text<24>::fits(text) || size < row.minimum || size > row.maximum) {
     throw Error(row.name + " = '" + text + "' has " + std::to_string(size) + " bytes; possible are " +
-                std::to_string(row.minimum) + " to " + std::to_string(row.maximum));
+                    std::to_string(row.minimum) + " to " + std::to_string(row.maximum),
+                ParameterProblem::wrong_length, {row.name, std::to_string(size)});
   }
   if (plain_text(text) != text || text.find_first_of("\n\t") != std::string::npos)
     throw Error(row.name + " takes plain text: UTF-8 without control characters");
@@ -86,10 +90,13 @@ RawValue to_raw(const ParameterRow& row, const Value& value) {
   const auto* text = std::get_if<std::string>(&value);
   if (row.kind == ParameterKind::text) {
     if (text == nullptr)
-      throw Error(row.name + " takes a text, not the number " + to_text(std::get<double>(value)));
+      throw Error(row.name + " takes a text, not the number " + to_text(std::get<double>(value)),
+                  ParameterProblem::is_text, {row.name});
     return raw_text(row, *text);
   }
-  if (text != nullptr) throw Error(row.name + " takes a number, not the text '" + *text + "'");
+  if (text != nullptr)
+    throw Error(row.name + " takes a number, not the text '" + *text + "'", ParameterProblem::is_number,
+                {row.name});
   return raw_number(row, std::get<double>(value));
 }
 

@@ -8,6 +8,21 @@
 
 namespace astro::robot {
 
+/// What is wrong with a parameter. Values: its name; then of out_of_range the value and the limits, and of
+/// wrong_length the number of bytes. The last three are about all of them: of too_many their number.
+enum class ParameterProblem {
+  unknown,
+  is_text,
+  is_number,
+  not_a_number,
+  not_whole,
+  out_of_range,
+  wrong_length,
+  too_many,
+  changed_by_another,
+  set_unknown
+};
+
 /// A value as people write and read it: a number in the row's unit, or a text.
 using Value = std::variant<double, std::string>;
 

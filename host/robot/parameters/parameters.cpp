@@ -114,8 +114,9 @@ std::string broken_rule(std::span<const ParameterRow> rows, const ParameterRow& 
 RemoteParameters RemoteParameters::begin(Client& client, int tries) {
   if (client.robot().parameter_count > kMostParameters)
     throw Error("the robot at " + client.name() + " says that it has " +
-                std::to_string(client.robot().parameter_count) + " parameters, more than " +
-                std::to_string(kMostParameters) + ": its firmware is damaged or not Astrolabe's");
+                    std::to_string(client.robot().parameter_count) + " parameters, more than " +
+                    std::to_string(kMostParameters) + ": its firmware is damaged or not Astrolabe's",
+                ParameterProblem::too_many, {std::to_string(client.robot().parameter_count)});
   return {client, tries};
 }
 
@@ -164,7 +165,8 @@ Value RemoteParameters::value(std::string_view name) const { return to_value(row
 double RemoteParameters::number(std::string_view name) const {
   const ParameterRow& found = row(name);
   if (found.kind == ParameterKind::text)
-    throw Error("the robot's parameter '" + found.name + "' is a text, not a number");
+    throw Error("the robot's parameter '" + found.name + "' is a text, not a number",
+                ParameterProblem::is_text, {found.name});
   return to_real(found, found.active.raw);
 }
 
@@ -183,8 +185,8 @@ void RemoteParameters::stage(std::string_view name, const Value& value) {
     ask(StageParameter{row.id, raw.raw, Text<24>(raw.text)});
   } catch (const RobotRefused& refused) {
     if (refused.code() == ErrorCode::staging_lost) throw;
-    throw RobotRefused(row.name + " = " + describe(row, to_value(row, raw)), refused.code(),
-                       refused.detail());
+    const std::string written = describe(row, to_value(row, raw));
+    throw RobotRefused(row.name + " = " + written, refused.code(), refused.detail(), {}, {row.name, written});
   }
   row.staged = raw;
 }
@@ -201,9 +203,9 @@ void RemoteParameters::put_in_force(const Request& request) {
     const auto bad =
         std::find_if(rows_.begin(), rows_.end(), [&](const auto& r) { return r.id == refused.detail(); });
     if (refused.code() != ErrorCode::invalid_parameter || bad == rows_.end()) throw;
-    throw RobotRefused(
-        "the new set because of " + bad->name + " = " + describe(*bad, to_value(*bad, bad->staged)),
-        refused.code(), refused.detail(), broken_rule(rows_, *bad));
+    const std::string written = describe(*bad, to_value(*bad, bad->staged));
+    throw RobotRefused("the new set because of " + bad->name + " = " + written, refused.code(),
+                       refused.detail(), broken_rule(rows_, *bad), {bad->name, written});
   }
   for (ParameterRow& row : rows_) row.active = row.staged;
 }

@@ -10,9 +10,6 @@
 
 namespace astro::robot {
 
-/// `unknown` has the parameter's name as its value.
-enum class ParameterProblem { unknown, changed_by_another };
-
 /// The robot's parameter table as the robot itself describes it; works also for parameters that this program
 /// does not know.
 ///

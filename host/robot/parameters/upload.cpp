@@ -50,7 +50,8 @@ class Upload {
   }
 
   [[noreturn]] static void fail_unknown(const std::string& why) {
-    throw LinkLost(why + "; the robot holds the old set or the new one, whole: upload again once it answers");
+    throw LinkLost(why + "; the robot holds the old set or the new one, whole: upload again once it answers",
+                   ParameterProblem::set_unknown);
   }
 
   void change(RemoteParameters& parameters) {
@@ -94,9 +95,11 @@ class Upload {
 }  // namespace
 
 Remark UploadReport::remark() const {
-  const std::string drop = link_dropped ? "the link dropped on the way; " : "";
-  if (active == ActiveSet::new_set) return {drop + "the robot holds the new set, read back and compared"};
-  return {drop + "the robot holds the old set, unchanged: upload again"};
+  const std::string held = active == ActiveSet::new_set
+                               ? "the robot holds the new set, read back and compared"
+                               : "the robot holds the old set, unchanged: upload again";
+  if (!link_dropped) return {held, active};
+  return {"the link dropped on the way; " + held, active, {"link_dropped"}};
 }
 
 UploadReport upload(Client& client, const std::map<std::string, Value>& values,

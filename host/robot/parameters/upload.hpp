@@ -22,7 +22,7 @@ struct UploadReport {
   bool link_dropped = false;  // during the upload; the robot was found again and asked
   std::vector<UploadedValue> values;
 
-  /// What happened, and what the robot holds now.
+  /// What happened, and what the robot holds now: its kind is `active`, its value "link_dropped" if it was.
   Remark remark() const;
 };
 

@@ -53,7 +53,9 @@ Stream& StreamTransport<Stream>::stream() {
 template <class Stream>
 void StreamTransport<Stream>::lose(const Remark& why) {
   stream_.reset();
-  throw LinkLost(why.in("lost " + name_ + ": "));
+  Remark lost = why.in("lost " + name_ + ": ");
+  lost.values.insert(lost.values.begin(), name_);
+  throw LinkLost(lost);
 }
 
 template <class Stream>
@@ -124,8 +126,8 @@ template class StreamTransport<asio::local::stream_protocol::socket>;  // shared
 namespace {
 
 asio::ip::tcp::endpoint parse_tcp(const std::string& address) {
-  const Error bad("'" + address +
-                  "' is not an address of the form tcp:HOST:PORT, such as tcp:localhost:5555");
+  const Error bad("'" + address + "' is not an address of the form tcp:HOST:PORT, such as tcp:localhost:5555",
+                  PortProblem::no_address, {address});
   const std::string rest = address.substr(4);
   const auto colon = rest.rfind(':');
   if (colon == std::string::npos) throw bad;
@@ -137,8 +139,9 @@ asio::ip::tcp::endpoint parse_tcp(const std::string& address) {
   error_code no_number;
   const auto ip = asio::ip::make_address(host, no_number);
   if (no_number || !ip.is_loopback()) {
-    throw Error(address +
-                " is not on this machine: a robot's link has no protection, so only localhost is allowed");
+    throw Error(
+        address + " is not on this machine: a robot's link has no protection, so only localhost is allowed",
+        PortProblem::not_local, {address});
   }
   return {ip, static_cast<std::uint16_t>(*port)};
 }
@@ -149,7 +152,8 @@ asio::ip::tcp::socket connect_tcp(asio::io_context& context, const std::string& 
   error_code error;
   socket.connect(endpoint, error);
   if (error)
-    throw Error("nothing listens at " + address + " (" + error.message() + "): is the simulator running?");
+    throw Error("nothing listens at " + address + " (" + error.message() + "): is the simulator running?",
+                PortProblem::nobody_listens, {address});
   socket.set_option(asio::ip::tcp::no_delay(true));
   socket.non_blocking(true);
   return socket;

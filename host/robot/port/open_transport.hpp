@@ -8,7 +8,19 @@
 
 namespace astro::robot {
 
-enum class PortProblem { none_named };
+/// What is wrong with a port. Values: its address, unless none is named.
+enum class PortProblem {
+  none_named,
+  absent,
+  is_folder,
+  not_serial,
+  is_terminal,
+  no_permission,
+  in_use,
+  no_address,
+  not_local,
+  nobody_listens
+};
 
 inline constexpr unsigned kDefaultBaud = 1'000'000;
 

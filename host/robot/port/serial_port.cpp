@@ -39,15 +39,17 @@ Remark why_not_open(const std::string& path, int error) {
     case ENOENT:
     case ENOTDIR:
       if (is_link(path)) return {path + kNothingBehind};
-      return {"there is no port " + path + "; " + ports_here()};
+      return {"there is no port " + path + "; " + ports_here(), PortProblem::absent, {path}};
     case EACCES:
     case EPERM:
       return {"no permission to open " + path +
-              ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again"};
+                  ": add yourself to its group (sudo usermod -aG dialout $USER), then log in again",
+              PortProblem::no_permission,
+              {path}};
     case ELOOP:
       return {path + " is a link that leads back to itself; " + ports_here() + ": name the port itself"};
     case EISDIR:
-      return {path + " is a folder, not a serial port"};
+      return {path + " is a folder, not a serial port", PortProblem::is_folder, {path}};
     case EIO:
     case ENXIO:
     case ENODEV:
@@ -91,15 +93,17 @@ Descriptor open_serial_port(const std::string& path, unsigned baud) {
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!port) throw Error(why_not_open(path, errno));
   termios2 mode{};
-  if (::ioctl(port.get(), TCGETS2, &mode) != 0) throw Error(path + " is not a serial port");
+  if (::ioctl(port.get(), TCGETS2, &mode) != 0)
+    throw Error(path + " is not a serial port", PortProblem::not_serial, {path});
   struct stat about {};
   if (::fstat(port.get(), &about) == 0) {
     if (const auto user = terminal_user(about.st_rdev)) {
-      throw Error(path + " is not a robot but the terminal that '" + *user + "' runs in");
+      throw Error(path + " is not a robot but the terminal that '" + *user + "' runs in",
+                  PortProblem::is_terminal, {path});
     }
   }
   if (::flock(port.get(), LOCK_EX | LOCK_NB) != 0)
-    throw PortInUse(path + " is in use by another program, which does not share it", port_key(about));
+    throw PortInUse(path + " is in use by another program, which does not share it", path, port_key(about));
   make_raw(mode, baud);
   if (::ioctl(port.get(), TCSETS2, &mode) != 0) {
     if (errno == EIO) throw Error(why_not_open(path, EIO));

@@ -8,14 +8,15 @@
 
 #include "host/base/descriptor.hpp"
 #include "host/base/error.hpp"
+#include "host/robot/port/open_transport.hpp"
 
 namespace astro::robot {
 
 /// Another program has locked the port.
 class PortInUse : public Error {
  public:
-  PortInUse(const std::string& sentence, std::string key)
-      : Error(sentence + ": end that program first"), key_(std::move(key)) {}
+  PortInUse(const std::string& sentence, const std::string& address, std::string key)
+      : Error(sentence + ": end that program first", PortProblem::in_use, {address}), key_(std::move(key)) {}
   /// The same in all programs, whichever name of the port they use.
   const std::string& key() const { return key_; }
 

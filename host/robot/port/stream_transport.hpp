@@ -18,7 +18,8 @@ class StreamTransport final : public Transport {
   /// Opens the address; called for each opening. Throws Error if it cannot.
   using Opener = std::function<Stream(boost::asio::io_context&)>;
 
-  /// Clauses of messages that depend on what is at the other end.
+  /// Clauses of messages that depend on what is at the other end. The address comes before the values of
+  /// `lost`.
   struct Sentences {
     std::function<Remark()> lost = [] { return Remark{"it was unplugged, switched off or ended"}; };
     std::function<Remark()> silent = [] { return Remark{}; };

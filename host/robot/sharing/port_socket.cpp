@@ -119,10 +119,14 @@ HolderConnection connect_to(const std::string& port_key, microseconds timeout) {
 }
 
 Remark holder_hangs(const PortUser& holder) {
-  if (holder.pid == 0) return {"the program that holds the port does not answer: let it go on, or end it"};
+  if (holder.pid == 0)
+    return {"the program that holds the port does not answer: let it go on, or end it",
+            SharingProblem::holder_hangs};
+  const std::string pid = std::to_string(holder.pid);
   return {"the program with " + in_words(holder.pid, holder.command) +
-          " holds the port and does not answer: let it go on, or end it with 'kill -9 " +
-          std::to_string(holder.pid) + "'"};
+              " holds the port and does not answer: let it go on, or end it with 'kill -9 " + pid + "'",
+          SharingProblem::holder_hangs,
+          {pid}};
 }
 
 }  // namespace astro::robot

@@ -19,6 +19,10 @@
 /// and files outlive the programs that made them.
 namespace astro::robot {
 
+/// What is wrong with the program that holds a port. `not_shared`: other programs cannot connect to this one;
+/// it has the address. The others have the process id of the one that holds the port, where it is known.
+enum class SharingProblem { not_shared, holder_hangs, holder_ended };
+
 /// Throws Error if the name is in use, by a program of another user or by one that has not ended yet.
 Descriptor listen_at(const std::string& port_key);
 

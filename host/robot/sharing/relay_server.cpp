@@ -119,7 +119,7 @@ Descriptor RelayServer::connect_self() {
 Remark RelayServer::why_ended() const {
   const int end = own_end_;
   const auto reason = end < 0 ? FarewellReason::line_lost : static_cast<FarewellReason>(end);
-  return {std::string(fact(reason))};
+  return {std::string(fact(reason)), reason};
 }
 
 void RelayServer::run() {

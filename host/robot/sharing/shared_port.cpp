@@ -75,8 +75,10 @@ class SharedPort {
 
   Remark why_lost() const {
     if (server_) return server_->why_ended();
-    return {"the program that held the port" +
-            (holder_ ? " (" + in_words(holder_->pid, holder_->command) + ")" : std::string()) + " has ended"};
+    if (!holder_) return {"the program that held the port has ended", SharingProblem::holder_ended};
+    return {"the program that held the port (" + in_words(holder_->pid, holder_->command) + ") has ended",
+            SharingProblem::holder_ended,
+            {std::to_string(holder_->pid)}};
   }
 
   Remark why_silent() const {
@@ -98,7 +100,9 @@ class SharedPort {
       try {
         shared.listener = listen_at(port_key_of(shared.line.get()));
       } catch (const Error& error) {  // this program can use the port anyway
-        notice_(error.in(address_ + ": no other program can stop or watch this robot meanwhile; "));
+        notice_({address_ + ": no other program can stop or watch this robot meanwhile; " + error.what(),
+                 SharingProblem::not_shared,
+                 {address_}});
       }
     }
     server_ = std::make_unique<RelayServer>(std::move(shared));
@@ -112,7 +116,8 @@ class SharedPort {
       return listen_at(key);
     } catch (const Error& error) {
       throw PortInUse(
-          address_ + " is in use by another program, which does not share it (" + error.what() + ")", key);
+          address_ + " is in use by another program, which does not share it (" + error.what() + ")",
+          address_, key);
     }
   }
 

@@ -14,6 +14,7 @@
 #include "host/base/interrupted.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/wall/wall_drive.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/wall_desk.hpp"
 
 namespace astro::wall {
@@ -21,7 +22,7 @@ namespace {
 
 using support::Desk;
 using support::kThesisSlip_m;
-using testing::HasSubstr;
+using support::ThrowsTelling;
 
 sim::Config facing(double gap_m) {
   sim::Config config;
@@ -90,13 +91,7 @@ TEST_F(Touching, StopsAtOnceIfAWheelTurnsTheWrongWay) {
     config.wiring.*wire = true;
     begin(config);
     const std::uint64_t began_us = board().world_us();
-    try {
-      touch();
-      ADD_FAILURE() << side;
-    } catch (const NotFlush& error) {
-      EXPECT_THAT(error.what(), HasSubstr("the " + side + " wheel runs backwards"));
-      EXPECT_EQ(error.remedy().help, Help::check_wiring);
-    }
+    EXPECT_THAT([&] { touch(); }, ThrowsTelling<NotFlush>(WallProblem::runs_backwards, side));
     EXPECT_LT(board().world_us() - began_us, 1'500'000U) << "the pause with shorted motors included";
     EXPECT_LT(std::abs(board().truth().theta_rad), 0.15) << side;
     EXPECT_EQ(mode(), protocol::Mode::disarmed);
@@ -148,12 +143,7 @@ TEST_F(Touching, TurnsARobotWhoseWheelsStandOutsideItsFront) {
 
 TEST_F(Touching, DoesNotTurnARobotThatDoesNotFaceTheWall) {
   begin(facing(0.1), 1.0);
-  try {
-    touch();
-    ADD_FAILURE();
-  } catch (const NotFlush& error) {
-    EXPECT_THAT(error.what(), HasSubstr("degrees against the wall"));
-  }
+  EXPECT_THAT([&] { touch(); }, ThrowsTelling<NotFlush>(WallProblem::turned_away));
   EXPECT_LT(std::abs(board().truth().theta_rad - 1.0), 0.9);
 }
 
@@ -174,12 +164,7 @@ TEST_F(Touching, HardlyMovesARobotThatIsFlush) {
 
 TEST_F(Touching, FindsNoWallWhereThereIsNone) {
   begin(facing(1.0));
-  try {
-    touch(0.1);
-    FAIL() << "there is no wall";
-  } catch (const NotFlush& error) {
-    EXPECT_THAT(error.what(), HasSubstr("no wall was touched within 100 mm"));
-  }
+  EXPECT_THAT([&] { touch(0.1); }, ThrowsTelling<NotFlush>(WallProblem::no_wall, "100 mm"));
   EXPECT_LT(board().truth().x_m, 0.15);
   EXPECT_EQ(mode(), protocol::Mode::disarmed);
 }
@@ -187,12 +172,7 @@ TEST_F(Touching, FindsNoWallWhereThereIsNone) {
 TEST_F(Touching, NoticesWheelsThatDoNotTurnOnSoLittleVoltage) {
   begin(facing(0.1));
   for (const Side side : {Side::left, Side::right}) board().set_load(side, {0, 100});
-  try {
-    touch();
-    FAIL() << "the wheels are blocked";
-  } catch (const NotFlush& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the wheels do not turn"));
-  }
+  EXPECT_THAT([&] { touch(); }, ThrowsTelling<NotFlush>(WallProblem::wheels_stand, "left", "right"));
   expect_gentle();
 }
 
@@ -289,8 +269,9 @@ TEST_F(Touching, PushesNoHarderForALargerLimitThanTheLimit) {
 
 TEST_F(Touching, RefusesForcesThatCannotBe) {
   begin(facing(0.1));
-  for (const double force_N : {2.0, 60.0})
-    EXPECT_THROW(push_voltage_V({.force_N = force_N}, robot), Error) << force_N;
+  EXPECT_THAT([&] { push_voltage_V({.force_N = 2}, robot); }, ThrowsTelling(WallProblem::push_too_weak, "2"));
+  EXPECT_THAT([&] { push_voltage_V({.force_N = 60}, robot); },
+              ThrowsTelling(WallProblem::push_too_strong, "60"));
   // 12 N are 6 N a wheel, 0.216 N m; the data sheet's motor has 0.1528 N m for each volt.
   EXPECT_NEAR(push_V, 0.216 / 0.1528, 0.01);
 }

@@ -191,7 +191,7 @@ TEST_F(Doubts, AboutARobotThatWasTurnedMeanwhile) {
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->kind, SquaringDoubt::Kind::turned);
   EXPECT_NEAR(found->off, 0.4, 0.1);
-  EXPECT_NE(found->sentence.find("degrees more than whole turns"), std::string::npos) << found->sentence;
+  EXPECT_NE(found->fact.find("degrees more than whole turns"), std::string::npos) << found->fact;
 }
 
 TEST_F(Doubts, AboutAWallThatIsNotWhereItWas) {
@@ -199,7 +199,7 @@ TEST_F(Doubts, AboutAWallThatIsNotWhereItWas) {
   EXPECT_EQ(doubt(-0.2)->kind, SquaringDoubt::Kind::too_early);
   ASSERT_TRUE(doubt(0.2).has_value());
   EXPECT_EQ(doubt(0.2)->kind, SquaringDoubt::Kind::too_late);
-  EXPECT_NE(doubt(0.2)->sentence.find("200 mm behind"), std::string::npos) << doubt(0.2)->sentence;
+  EXPECT_NE(doubt(0.2)->fact.find("200 mm behind"), std::string::npos) << doubt(0.2)->fact;
 }
 
 TEST(ApproachMargin, GrowsWithTheWayAndWithWhatIsNotKnownOfTheRobot) {

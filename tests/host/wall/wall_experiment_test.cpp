@@ -13,12 +13,14 @@
 #include "host/base/interrupted.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "host/wall/wall_judgement.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/wall_desk.hpp"
 
 namespace astro::wall {
 namespace {
 
 using support::robot_before_a_wall;
+using support::Tells;
 using support::TemporaryFolder;
 using support::WallDesk;
 using testing::HasSubstr;
@@ -43,14 +45,9 @@ void expect_right(const WallDesk& desk, const WallEstimate& found) {
 
 std::optional<double> confirm(const GapDoubt& doubt) { return doubt.read_m; }
 
-std::string why_not(WallDesk& desk, const WallPlan& plan, const std::filesystem::path& folder,
-                    const WallHooks& hooks) {
-  try {
-    run_wall_experiment(desk.desk.client, plan, folder, hooks);
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
+Remark why_not(WallDesk& desk, const WallPlan& plan, const std::filesystem::path& folder,
+               const WallHooks& hooks) {
+  return support::told_by([&] { run_wall_experiment(desk.desk.client, plan, folder, hooks); });
 }
 
 TEST(WallExperiment, FindsTheFactorsOfARobot) {
@@ -106,8 +103,8 @@ TEST(WallExperiment, DoesNotCountAWayOnWhichTheRobotWasTurned) {
   const TemporaryFolder folder;
   WallDesk desk(robot_before_a_wall(6));
   WallHooks hooks = desk.hooks();
-  std::vector<std::string> notices;
-  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark.sentence); };
+  std::vector<Remark> notices;
+  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark); };
   bool turned = false;
   hooks.read_gap = [&](double) {
     // Somebody stumbles over the robot while the ruler is read.
@@ -120,7 +117,7 @@ TEST(WallExperiment, DoesNotCountAWayOnWhichTheRobotWasTurned) {
   hooks.read_again = confirm;
   const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
   ASSERT_FALSE(notices.empty());
-  EXPECT_THAT(notices.front(), HasSubstr("whole turns since it was flush before"));
+  EXPECT_THAT(notices.front(), Tells(SquaringDoubt::Kind::turned));
   EXPECT_LT(std::abs(desk.E_d_error(result.estimate)), 5 * result.estimate.se.E_d);
   EXPECT_LT(std::abs(desk.b_error(result.estimate)), 5 * result.estimate.se.b);
   ASSERT_TRUE(result.estimate.scale);
@@ -139,7 +136,7 @@ TEST(WallExperiment, GivesUpIfTheWallIsNeverWhereItWas) {
     return std::nullopt;
   };
   EXPECT_THAT(why_not(desk, quick(), folder.path(), hooks),
-              testing::AnyOf(HasSubstr("behind the wall of before"), HasSubstr("no wall was touched")));
+              testing::AnyOf(Tells(SquaringDoubt::Kind::too_late), Tells(WallProblem::no_wall)));
 }
 
 TEST(WallExperiment, AsksAgainAboutAGapThatCannotBe) {
@@ -203,13 +200,13 @@ TEST(WallExperiment, AsksForAnotherReadingIfTwoContradictEachOtherAndLeavesTheWr
   WallDesk desk(robot_before_a_wall(15));
   WallHooks hooks = desk.hooks();
   int asked = 0;
-  std::vector<std::string> notices;
-  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark.sentence); };
+  std::vector<Remark> notices;
+  hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark); };
   hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() + (asked++ == 0 ? 0.025 : 0)); };
   hooks.read_again = confirm;
   const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
   EXPECT_EQ(asked, 3);
-  EXPECT_THAT(notices, testing::ElementsAre(HasSubstr("contradict each other")));
+  EXPECT_THAT(notices, testing::ElementsAre(Tells(WallProblem::readings_contradict)));
   EXPECT_EQ(result.estimate.scale->readings, 2);
   EXPECT_EQ(result.estimate.scale->left_out, 1);
   expect_right(desk, result.estimate);
@@ -235,7 +232,9 @@ TEST(WallExperiment, LetsOnlyOneProgramDriveInAFolder) {
   const TemporaryFolder folder;
   WallDesk desk(robot_before_a_wall(17));
   const FolderLock other(folder.path());
-  EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()), HasSubstr("another program"));
+  const Remark in_use = support::told_by([&] { FolderLock(folder.path()); });
+  ASSERT_NE(in_use.sentence, "");
+  EXPECT_EQ(why_not(desk, quick(), folder.path(), desk.hooks()).sentence, in_use.sentence);
   EXPECT_EQ(desk.board().truth().x_m, 0) << "nothing has moved";
 }
 
@@ -275,7 +274,7 @@ TEST(WallExperiment, RefusesAJournalThatNoProgramWrote) {
     nlohmann::json bad = good;
     bad.at(nlohmann::json::json_pointer(where)) = value;
     std::ofstream(folder.path() / "wall.json") << bad;
-    EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()), HasSubstr("is damaged"))
+    EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()), Tells(WallProblem::journal_damaged))
         << where << " = " << value;
   }
   std::ofstream(folder.path() / "wall.json") << good;
@@ -300,28 +299,30 @@ TEST(WallExperiment, RefusesAFolderOfOtherSettingsOrAnotherRobotOrADamagedOne) {
   EXPECT_THROW(run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks), Interrupted);
   WallPlan longer = quick();
   longer.line_m = 2.5;
-  EXPECT_THAT(why_not(desk, longer, folder.path(), hooks), HasSubstr("other settings"));
-  EXPECT_THAT(why_not(other, quick(), folder.path(), other.hooks()), HasSubstr("this is"));
+  EXPECT_THAT(why_not(desk, longer, folder.path(), hooks), Tells(WallProblem::other_settings));
+  EXPECT_THAT(why_not(other, quick(), folder.path(), other.hooks()), Tells(WallProblem::other_robot));
   std::ofstream(folder.path() / "wall.json") << "{\"format\": 1";
-  EXPECT_THAT(why_not(desk, quick(), folder.path(), hooks), HasSubstr("damaged"));
+  EXPECT_THAT(why_not(desk, quick(), folder.path(), hooks), Tells(WallProblem::journal_damaged));
 }
 
 TEST(WallExperiment, RefusesWhatCannotBeDriven) {
   const TemporaryFolder folder;
   WallDesk desk(robot_before_a_wall(12));
-  const std::vector<std::pair<std::function<void(WallPlan&)>, std::string>> wrong{
-      {[](WallPlan& plan) { plan.line_m = 0.1; }, "laps of 0.1 m"},
-      {[](WallPlan& plan) { plan.gap_m = 100; }, "a gap of 100 m"},
-      {[](WallPlan& plan) { plan.readings = -1; }, "-1 readings"},
-      {[](WallPlan& plan) { plan.push.force_N = 1; }, "would not start turning"},
-      {[](WallPlan& plan) { plan.push.force_N = 80; }, "take for a stall"},
-      {[](WallPlan& plan) { plan.targets.E_d = 0; }, "a standard error of 0"},
-      {[](WallPlan& plan) { plan.body.width_m = 0; }, "no small robot"},
-      {[](WallPlan& plan) { plan.most_minutes = NAN; }, "minutes"}};
-  for (const auto& [spoil, sentence] : wrong) {
+  using testing::Matcher;
+  const std::vector<std::pair<std::function<void(WallPlan&)>, Matcher<const Remark&>>> wrong{
+      {[](WallPlan& plan) { plan.line_m = 0.1; }, Tells(WallProblem::impossible_plan, "line_m", "0.1")},
+      {[](WallPlan& plan) { plan.gap_m = 100; }, Tells(WallProblem::impossible_plan, "gap_m", "100")},
+      {[](WallPlan& plan) { plan.readings = -1; }, Tells(WallProblem::impossible_plan, "readings", "-1")},
+      {[](WallPlan& plan) { plan.push.force_N = 1; }, Tells(WallProblem::push_too_weak, "1")},
+      {[](WallPlan& plan) { plan.push.force_N = 80; }, Tells(WallProblem::push_too_strong, "80")},
+      {[](WallPlan& plan) { plan.targets.E_d = 0; }, Tells(WallProblem::impossible_plan, "E_d", "0")},
+      {[](WallPlan& plan) { plan.body.width_m = 0; }, Tells(WallProblem::impossible_plan, "body")},
+      {[](WallPlan& plan) { plan.most_minutes = NAN; },
+       Tells(WallProblem::impossible_plan, "most_minutes", "nan")}};
+  for (const auto& [spoil, tells] : wrong) {
     WallPlan plan = quick();
     spoil(plan);
-    EXPECT_THAT(why_not(desk, plan, folder.path(), desk.hooks()), HasSubstr(sentence));
+    EXPECT_THAT(why_not(desk, plan, folder.path(), desk.hooks()), tells);
   }
   EXPECT_EQ(desk.board().truth().x_m, 0) << "nothing has moved";
 }

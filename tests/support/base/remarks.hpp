@@ -43,9 +43,10 @@ auto Tells(Kind kind, Values... values) {
 }
 
 /// Of something that is called: it throws an astro::Error of this kind, with these values if any are given.
-template <class... Values>
+/// ThrowsTelling<LinkLost>(...): and of this class.
+template <class Thrown = Error, class... Values>
 auto ThrowsTelling(Kind kind, Values... values) {
-  return testing::Throws<Error>(
+  return testing::Throws<Thrown>(
       testing::ResultOf([](const Error& error) { return error.remark(); }, Tells(kind, values...)));
 }
 

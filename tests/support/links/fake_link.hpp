@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "host/robot/port/transport.hpp"
+#include "host/robot/port/open_transport.hpp"
 #include "tests/support/links/fake_robot.hpp"
 
 namespace astro::test {
@@ -63,7 +63,7 @@ class FakeLink : public robot::Transport {
     arrived_.clear();
     under_way_.clear();
     while (gone_ && now_ < std::min(deadline, back_at_)) tick();
-    if (gone_ && now_ < back_at_) throw Error("there is no port fake0");
+    if (gone_ && now_ < back_at_) throw Error("there is no port fake0", robot::PortProblem::absent, {name_});
     gone_ = false;
   }
 

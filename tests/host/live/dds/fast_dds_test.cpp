@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/base/error.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/ros2/domain.hpp"
 
 namespace astro::dds {
@@ -264,12 +265,9 @@ TEST(FastDds, OfAnEndpointThatShowsVeryMuchNothingIsKept) {
 }
 
 TEST(FastDds, APeerWithoutAnAddressIsNamed) {
-  try {
-    open_fast_dds({support::test_domain(), Range::localhost, {"no such host"}}, "test", "");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "ROS_STATIC_PEERS names 'no such host', which has no IPv4 address");
-  }
+  const Discovery with_unknown_peer{support::test_domain(), Range::localhost, {"no such host"}};
+  EXPECT_THAT([&] { open_fast_dds(with_unknown_peer, "test", ""); },
+              support::ThrowsTelling(DiscoveryProblem::peer_without_address, "no such host"));
 }
 
 }  // namespace

@@ -7,34 +7,25 @@
 
 #include "host/base/error.hpp"
 #include "tests/support/base/mutations.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::foxglove {
 namespace {
 
+using support::Tells;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 template <class T>
 T read(std::string_view text) {
   return std::get<T>(parse_text(text));
 }
 
-std::string complaint_about(std::string_view text) {
-  try {
-    parse_text(text);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "none";
+Remark complaint_about(std::string_view text) {
+  return support::told_by([&] { parse_text(text); });
 }
 
-std::string complaint_about(const Bytes& frame) {
-  try {
-    parse_binary(frame);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "none";
+Remark complaint_about(const Bytes& frame) {
+  return support::told_by([&] { parse_binary(frame); });
 }
 
 /// As the official client writes them.
@@ -95,33 +86,35 @@ TEST(ClientMessages, AWholeNumberMarkedAsFloat64IsReal) {
 }
 
 TEST(ClientMessages, WhatIsWrongIsNamed) {
-  EXPECT_THAT(complaint_about("{"), HasSubstr("is not JSON"));
-  EXPECT_THAT(complaint_about("[1]"), HasSubstr("no 'op'"));
-  EXPECT_THAT(complaint_about(R"({"op":7})"), HasSubstr("'op' is not a text"));
-  EXPECT_THAT(complaint_about(R"({"op":"fly"})"), HasSubstr("no 'fly'"));
-  EXPECT_THAT(complaint_about(R"({"op":"subscribe"})"), HasSubstr("no 'subscriptions'"));
-  EXPECT_THAT(complaint_about(R"({"op":"subscribe","subscriptions":{}})"), HasSubstr("not a list"));
+  EXPECT_THAT(complaint_about("{"), Tells(MessageProblem::not_json));
+  EXPECT_THAT(complaint_about("[1]"), Tells(MessageProblem::missing, "op"));
+  EXPECT_THAT(complaint_about(R"({"op":7})"), Tells(MessageProblem::not_a_text, "op"));
+  EXPECT_THAT(complaint_about(R"({"op":"fly"})"), Tells(MessageProblem::unknown_operation, "fly"));
+  EXPECT_THAT(complaint_about(R"({"op":"subscribe"})"), Tells(MessageProblem::missing, "subscriptions"));
+  EXPECT_THAT(complaint_about(R"({"op":"subscribe","subscriptions":{}})"),
+              Tells(MessageProblem::not_a_list, "subscriptions"));
   EXPECT_THAT(complaint_about(R"({"op":"subscribe","subscriptions":[{"id":-1,"channelId":1}]})"),
-              HasSubstr("'id' is not a whole number"));
+              Tells(MessageProblem::not_32_bits, "id"));
   EXPECT_THAT(complaint_about(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":4294967296}]})"),
-              HasSubstr("'channelId'"));
-  EXPECT_THAT(complaint_about(R"({"op":"unsubscribe","subscriptionIds":[1.5]})"), HasSubstr("32 bits"));
+              Tells(MessageProblem::not_32_bits, "channelId"));
+  EXPECT_THAT(complaint_about(R"({"op":"unsubscribe","subscriptionIds":[1.5]})"),
+              Tells(MessageProblem::not_32_bits, "subscriptionIds"));
   EXPECT_THAT(complaint_about(R"({"op":"setParameters","parameters":[{"name":"b","value":[1]}]})"),
-              HasSubstr("neither a number"));
+              Tells(MessageProblem::no_parameter_value));
   EXPECT_THAT(
       complaint_about(R"({"op":"setParameters","parameters":[{"name":"b","value":18446744073709551615}]})"),
-      HasSubstr("64 bits"));
+      Tells(MessageProblem::beyond_64_bits));
 }
 
 TEST(ClientMessages, LongNamesDeepValuesAndHugeTextsAreRefused) {
   const std::string name(256, 'n');
   EXPECT_THAT(complaint_about(R"({"op":"getParameters","parameterNames":[")" + name + R"("]})"),
-              HasSubstr("longer than 255"));
-  EXPECT_THAT(complaint_about(std::string(200'000, '[')), HasSubstr("nested deeper"));
+              Tells(MessageProblem::name_too_long, "parameterNames"));
+  EXPECT_THAT(complaint_about(std::string(200'000, '[')), Tells(MessageProblem::nested_too_deep));
   std::string many = R"({"op":"getParameters","parameterNames":["a")";
   for (std::size_t i = 0; i < kMostListed; ++i) many += R"(,"a")";
-  EXPECT_THAT(complaint_about(many + "]}"), HasSubstr("more than 1000 entries"));
-  EXPECT_THAT(complaint_about(std::string(kLongestText + 1, ' ')), HasSubstr("longer than"));
+  EXPECT_THAT(complaint_about(many + "]}"), Tells(MessageProblem::too_many_entries, "parameterNames"));
+  EXPECT_THAT(complaint_about(std::string(kLongestText + 1, ' ')), Tells(MessageProblem::text_too_long));
 }
 
 TEST(ClientMessages, BinaryFramesAreReadAsPublished) {
@@ -141,12 +134,12 @@ TEST(ClientMessages, ShortFramesAndUnknownKindsAreRefused) {
   const Bytes call{2, 7, 0, 0, 0, 9, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r'};
   for (std::size_t size = 0; size < call.size(); ++size)
     EXPECT_THAT(complaint_about(Bytes(call.begin(), call.begin() + static_cast<std::ptrdiff_t>(size))),
-                HasSubstr("too short"))
+                Tells(MessageProblem::frame_too_short))
         << size;
-  EXPECT_EQ(complaint_about(call), "none");
+  EXPECT_NO_THROW(parse_binary(call));
   EXPECT_THAT(complaint_about(Bytes{2, 0, 0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 'c'}),
-              HasSubstr("too short"));
-  EXPECT_THAT(complaint_about(Bytes{3, 0}), HasSubstr("kind 3"));
+              Tells(MessageProblem::frame_too_short));
+  EXPECT_THAT(complaint_about(Bytes{3, 0}), Tells(MessageProblem::unknown_frame, "3"));
 }
 
 TEST(ClientMessages, DamagedMessagesAreReadOrRefusedAndNothingElse) {
@@ -155,7 +148,7 @@ TEST(ClientMessages, DamagedMessagesAreReadOrRefusedAndNothingElse) {
   support::Mutator mutate(kSeed);
   int refused = 0;
   for (int i = 0; i < 20'000; ++i)
-    if (complaint_about(mutate.text(kTexts[static_cast<std::size_t>(i) % kTexts.size()])) != "none")
+    if (!complaint_about(mutate.text(kTexts[static_cast<std::size_t>(i) % kTexts.size()])).sentence.empty())
       ++refused;
   EXPECT_GT(refused, 10'000);  // most damage hits JSON's grammar
   EXPECT_LT(refused, 20'000);  // some only changes a number or a name

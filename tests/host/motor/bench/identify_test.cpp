@@ -12,7 +12,6 @@ namespace astro::motor {
 namespace {
 
 using support::Tells;
-using testing::HasSubstr;
 
 struct Measured {
   IdentifiedMotors identity;
@@ -83,14 +82,11 @@ TEST(Identify, AMotorThatIsTenPercentStrongerIsFoundWheelByWheel) {
 
 Remark refusal(const sim::Config& config, const Bounds& bounds) {
   support::Desk desk(config);
-  Remark told;
-  try {
+  const Remark told = support::told_by([&] {
     Bench bench(desk.client, facts_on(desk));
     robot::DriveSession session(desk.client);
     identify(bench, session, bounds, [](double) {});
-  } catch (const Error& error) {
-    told = support::remark_of(error);
-  }
+  });
   const protocol::Status status = desk.client.request(protocol::GetStatus{});
   EXPECT_EQ(status.mode, protocol::Mode::disarmed);
   EXPECT_EQ(status.latched_faults, 0U) << "stopped before the firmware has to";
@@ -103,17 +99,14 @@ TEST(Identify, AWheelThatDoesNotAnswerIsNamedAndNothingIsLatched) {
   dead.wiring.left_motor_dead = true;
   blind.wiring.right_encoder_dead = true;
   reversed.wiring.right_encoder_reversed = true;
-  EXPECT_THAT(refusal(dead, {}), Tells(HasSubstr("the left wheel does not turn"), Help::check_wiring));
-  EXPECT_THAT(refusal(blind, {}),
-              Tells(HasSubstr("the right wheel does not turn, or does not count"), Help::check_wiring));
-  EXPECT_THAT(refusal(reversed, {}), Tells(HasSubstr("the right wheel counts backward"), Help::check_wiring));
+  EXPECT_THAT(refusal(dead, {}), Tells(BenchProblem::stands, "left"));
+  EXPECT_THAT(refusal(blind, {}), Tells(BenchProblem::stands, "right"));
+  EXPECT_THAT(refusal(reversed, {}), Tells(BenchProblem::counts_backward, "right"));
 }
 
 TEST(Identify, TooLittleRoomOrVoltageIsSaid) {
-  EXPECT_THAT(refusal(quiet_robot(false), {5, 0.02}),
-              Tells(HasSubstr("got further than 0.02 m"), Help::give_more_room));
-  EXPECT_THAT(refusal(quiet_robot(true), {1.2}),
-              Tells(HasSubstr("does not turn"), Help::check_wiring_or_raise_voltage));
+  EXPECT_THAT(refusal(quiet_robot(false), {5, 0.02}), Tells(BenchProblem::out_of_room, testing::_, "0.02"));
+  EXPECT_THAT(refusal(quiet_robot(true), {1.2}), Tells(BenchProblem::stands_at_little_voltage));
 }
 
 TEST(Identify, AnInterruptLeavesTheRobotStoppedAndDisarmed) {

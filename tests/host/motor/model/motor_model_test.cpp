@@ -6,11 +6,10 @@
 
 #include "host/base/error.hpp"
 #include "tests/host/motor/model/synthetic.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::motor {
 namespace {
-
-using testing::HasSubstr;
 
 MotorFit fit(const SyntheticWheel& wheel) { return fit_motor(drive(wheel, 16, excitation_V), wheel.count_m); }
 
@@ -85,16 +84,12 @@ TEST(MotorFit, TakesALossOfSamplesForWhatItIs) {
 
 TEST(MotorFit, RefusesWhatHoldsNoModel) {
   const SyntheticWheel wheel;
-  const auto refusal = [&](const std::vector<Sample>& samples) -> std::string {
-    try {
-      fit_motor(samples, wheel.count_m);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto refusal = [&](const std::vector<Sample>& samples) {
+    return support::told_by([&] { fit_motor(samples, wheel.count_m); });
   };
-  EXPECT_THAT(refusal({}), HasSubstr("turned too little"));
-  EXPECT_THAT(refusal(drive(wheel, 5, [](double) { return 0.9; })), HasSubstr("turned too little"));
+  EXPECT_THAT(refusal({}), support::Tells(MotorProblem::turned_too_little));
+  EXPECT_THAT(refusal(drive(wheel, 5, [](double) { return 0.9; })),
+              support::Tells(MotorProblem::turned_too_little));
 }
 
 TEST(Breakaway, IsTheVoltageAtWhichTheWheelBeganToTurn) {

@@ -5,12 +5,14 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::motor {
 namespace {
 
+using support::Tells;
+using support::ThrowsTelling;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::Pair;
 
 /// Ten turns of ASTRO as its parameters have it, while it really counts `factor` times that.
@@ -32,7 +34,7 @@ TEST(Roll, AnotherDecodingIsAPowerOfTwo) {
       const RollVerdict verdict = judge_roll(roll);
       EXPECT_FALSE(verdict.agrees);
       EXPECT_THAT(verdict.parameters, ElementsAre(Pair("counts_per_motor_rev", 64 * factor)));
-      EXPECT_THAT(verdict.finding.sentence, HasSubstr("counts_per_motor_rev is"));
+      EXPECT_THAT(verdict.finding, Tells(RollProblem::other_decoding));
     }
   }
 }
@@ -48,7 +50,7 @@ TEST(Roll, AnotherRatioIsAnotherGearIfTurnsWereCounted) {
   const RollVerdict verdict = judge_roll(ten_turns(30.0 / 43.8));
   EXPECT_THAT(verdict.parameters,
               ElementsAre(Pair("gear_denominator", 1000), Pair("gear_numerator", 30'000)));
-  EXPECT_THAT(verdict.finding.sentence, HasSubstr("30.000, not 43.800"));
+  EXPECT_THAT(verdict.finding, Tells(RollProblem::other_gear, "30.000", "43.800"));
 }
 
 TEST(Roll, AnotherRatioAlongATapeIsAnotherDiameter) {
@@ -63,26 +65,26 @@ TEST(Roll, WheelsThatDisagreeChangeNothing) {
   const RollVerdict verdict = judge_roll(roll);
   EXPECT_FALSE(verdict.agrees);
   EXPECT_TRUE(verdict.parameters.empty());
-  EXPECT_THAT(verdict.finding.sentence, HasSubstr("left wheel counts 0.25"));
+  EXPECT_THAT(verdict.finding, Tells(RollProblem::wheels_differ, "0.25", "1"));
 }
 
 TEST(Roll, ATenfoldTypoInTheLengthIsNotTakenForAnotherWheel) {
   for (const double typo : {0.1, 10.0}) {
     Roll roll = along_the_tape(1);
     *roll.distance_m *= typo;
-    EXPECT_THROW(judge_roll(roll), Error);
+    EXPECT_THAT([&] { judge_roll(roll); }, ThrowsTelling(RollProblem::unlikely_length));
     roll = ten_turns(1);
     *roll.turns *= typo;
-    EXPECT_THROW(judge_roll(roll), Error);
+    EXPECT_THAT([&] { judge_roll(roll); }, ThrowsTelling(RollProblem::unlikely_length));
   }
 }
 
 TEST(Roll, AWheelThatDidNotTurnIsNamed) {
   Roll roll = ten_turns(1);
   roll.counts[1] = 3;
-  EXPECT_THROW(judge_roll(roll), Error);
+  EXPECT_THAT([&] { judge_roll(roll); }, ThrowsTelling(RollProblem::counts_nothing, "right"));
   roll.turns = 0.1;
-  EXPECT_THROW(judge_roll(roll), Error);
+  EXPECT_THAT([&] { judge_roll(roll); }, ThrowsTelling(RollProblem::too_short));
 }
 
 }  // namespace

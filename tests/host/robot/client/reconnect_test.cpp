@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 
 #include "host/robot/client/client.hpp"
+#include "host/robot/client/handshake.hpp"
+#include "host/robot/port/open_transport.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 
 namespace astro::robot {
@@ -10,7 +13,6 @@ using namespace protocol;  // NOLINT(google-build-using-namespace)
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using test::FakeLink;
-using testing::HasSubstr;
 
 class Reconnect : public testing::Test {
  protected:
@@ -42,12 +44,8 @@ TEST_F(Reconnect, GivesUpInTimeWithTheReason) {
   link.stays_away = seconds(60);
   link.drop();
   const auto start = client.now();
-  try {
-    client.reconnect(seconds(5));
-    FAIL();
-  } catch (const LinkLost& lost) {
-    EXPECT_THAT(lost.what(), HasSubstr("the link did not come back: there is no port fake0"));
-  }
+  EXPECT_THAT([&] { client.reconnect(seconds(5)); },
+              support::ThrowsTelling<LinkLost>(PortProblem::absent, "fake0"));
   EXPECT_EQ(client.now() - start, seconds(5));
 }
 
@@ -55,12 +53,8 @@ TEST_F(Reconnect, DoesNotTakeAnotherRobotForTheSame) {
   link.drop();
   link.robot.identity.unique_id.fill(8);
   link.robot.identity.robot_name = "other";
-  try {
-    client.reconnect(seconds(5));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("another robot, 'other', answers at fake0 where 'astro' was before"));
-  }
+  EXPECT_THAT([&] { client.reconnect(seconds(5)); },
+              support::ThrowsTelling(HandshakeProblem::other_robot, "fake0", "other", "astro"));
   EXPECT_EQ(client.robot().robot_name.view(), "astro");
 }
 

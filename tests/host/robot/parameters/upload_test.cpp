@@ -2,14 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 
 namespace astro::robot {
 namespace {
 
 using std::chrono::seconds;
+using support::Tells;
 using test::FakeLink;
-using testing::HasSubstr;
 
 const std::map<std::string, Value> kCalibration{
     {"c_R", 1.002}, {"c_L", 0.998}, {"b", 0.2886}, {"robot_name", std::string("calibrated")}};
@@ -30,7 +31,7 @@ TEST(Upload, PutsTheNewSetInForceAndSaysSo) {
   EXPECT_EQ(link.robot.parameter("b").value.active, 288'600'000);
   ASSERT_EQ(report.values.size(), 4U);
   for (const auto& value : report.values) EXPECT_EQ(value.now, value.wanted);
-  EXPECT_THAT(report.remark().sentence, HasSubstr("holds the new set"));
+  EXPECT_THAT(report.remark(), Tells(ActiveSet::new_set));
 }
 
 TEST(Upload, LeavesValuesAloneThatSomebodyElseStaged) {
@@ -61,7 +62,10 @@ TEST(Upload, ARefusedSetLeavesTheOldOneAndNothingStaged) {
 }
 
 TEST(Upload, ThatLosesTheStagingAreaSaysSoAndLeavesTheOtherSessionAlone) {
-  for (const std::uint8_t lost_at : {protocol::StageParameter::kId, protocol::CommitParameters::kId}) {
+  for (const auto& [message, name] :
+       {std::pair{protocol::StageParameter::kId, protocol::StageParameter::kName},
+        std::pair{protocol::CommitParameters::kId, protocol::CommitParameters::kName}}) {
+    const std::uint8_t lost_at = message;
     FakeLink link;
     Client client(link);
     client.connect();
@@ -76,8 +80,7 @@ TEST(Upload, ThatLosesTheStagingAreaSaysSoAndLeavesTheOtherSessionAlone) {
       FAIL();
     } catch (const RobotRefused& refused) {
       EXPECT_EQ(refused.code(), protocol::ErrorCode::staging_lost);
-      EXPECT_THAT(refused.what(),
-                  HasSubstr("another program has begun to change parameters meanwhile; nothing"));
+      EXPECT_THAT(refused.remark(), Tells(RobotProblem::refused, name));
     }
     EXPECT_EQ(reverts, 1) << "the area is not taken back from the other session";
     EXPECT_EQ(link.robot.parameter("b").value.active, 290'000'000);
@@ -113,9 +116,7 @@ Outcomes drop_at_every_frame(bool restarts) {
     }
     for (const auto& value : report.values) EXPECT_EQ(value.now, is_new ? value.wanted : value.before);
     EXPECT_EQ(link.robot.parameter("b").value.active, is_new ? 288'600'000 : 290'000'000) << "frame " << n;
-    EXPECT_THAT(report.remark().sentence,
-                HasSubstr(is_new ? "dropped on the way; the robot holds the new set"
-                                 : "dropped on the way; the robot holds the old set"));
+    EXPECT_THAT(report.remark(), Tells(report.active, "link_dropped"));
   }
 }
 
@@ -139,12 +140,8 @@ TEST(Upload, SaysThatTheSetIsWholeIfTheRobotDoesNotComeBack) {
   client.connect();
   link.drop_at_frame = link.frames + 25;
   link.stays_away = seconds(3600);
-  try {
-    upload(client, kCalibration, seconds(5));
-    FAIL();
-  } catch (const LinkLost& lost) {
-    EXPECT_THAT(lost.what(), HasSubstr("the robot holds the old set or the new one, whole"));
-  }
+  EXPECT_THAT([&] { upload(client, kCalibration, seconds(5)); },
+              support::ThrowsTelling<LinkLost>(ParameterProblem::set_unknown));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "host/robot/client/discovery.hpp"
+#include "host/robot/client/handshake.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/links/pty.hpp"
 #include "tests/support/programs/served_robot.hpp"
@@ -16,10 +18,10 @@ namespace astro::robot {
 namespace {
 
 namespace fs = std::filesystem;
+using support::Tells;
 using test::Pty;
 using test::ServedRobot;
 using test::TemporaryFolder;
-using testing::HasSubstr;
 
 TEST(Ports, ListsEachDeviceOnceUnderItsLastingName) {
   const TemporaryFolder dev;
@@ -68,8 +70,8 @@ TEST(Ports, FindsRobotsAndSaysWhyTheOthersAreNone) {
   const auto found =
       find_robots(shared, candidate_ports(folder.path(), folder.path()), std::chrono::seconds(3));
   ASSERT_EQ(found.size(), 3U);
-  EXPECT_THAT(found[0].reason.sentence, HasSubstr("does not answer"));
-  EXPECT_THAT(found[1].reason.sentence, HasSubstr("is in use by another program"));
+  EXPECT_THAT(found[0].reason, Tells(HandshakeProblem::nothing_comes, found[0].port.address));
+  EXPECT_THAT(found[1].reason, Tells(PortProblem::in_use, found[1].port.address));
   ASSERT_TRUE(found[2].robot) << found[2].reason.sentence;
   EXPECT_EQ(found[2].robot->robot_name.view(), "astro");
   EXPECT_FALSE(found[0].robot || found[1].robot);
@@ -88,7 +90,7 @@ TEST(Ports, AreAskedAllAtOnce) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].port.address, ports[i].address);
     EXPECT_FALSE(found[i].robot);
-    EXPECT_THAT(found[i].reason.sentence, HasSubstr("does not answer"));
+    EXPECT_THAT(found[i].reason, Tells(HandshakeProblem::nothing_comes, ports[i].address));
   }
 }
 

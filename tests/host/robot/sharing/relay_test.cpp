@@ -6,9 +6,11 @@
 #include <memory>
 #include <utility>
 
+#include "host/robot/client/handshake.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "host/robot/parameters/upload.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/links/relay_rig.hpp"
 
 namespace astro::robot {
@@ -17,10 +19,9 @@ namespace {
 using namespace protocol;  // NOLINT(google-build-using-namespace)
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using support::ThrowsTelling;
 using test::RelayedProgram;
 using test::RelayRig;
-using testing::AllOf;
-using testing::HasSubstr;
 
 constexpr bool is_onlookers(const Header& header) { return (header.request_id & 0x8000) != 0; }
 
@@ -35,16 +36,6 @@ std::string refusal_of(Client& client, const M& request) {
     return error.what();
   }
   return "taken";
-}
-
-template <class Work>
-std::string thrown_by(Work work) {
-  try {
-    work();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 /// Answers the frames that wait for the line, on request.
@@ -148,8 +139,8 @@ TEST_F(SharedPort, ADriverThatGoesMakesRoomForTheNext) {
 TEST_F(SharedPort, ASecondDriveIsRefusedWithASentenceThatNamesTheFirst) {
   first.client.request(Arm{});
   first.client.request(Velocity{100'000, 0});
-  const std::string why = thrown_by([&] { const DriveSession session(second.client); });
-  EXPECT_THAT(why, HasSubstr("is driving for another program (process id 11, 'astrolabe drive line 1')"));
+  EXPECT_THAT([&] { const DriveSession session(second.client); },
+              ThrowsTelling(DriveProblem::driven_by_another, "11", "astrolabe drive line 1"));
 }
 
 TEST_F(SharedPort, AStopOfAnotherEndsADriveAndSaysWhoseItWas) {
@@ -159,8 +150,8 @@ TEST_F(SharedPort, AStopOfAnotherEndsADriveAndSaysWhoseItWas) {
     if (to_robot && header.message_id == AddSegment::kId && ++passes == 2) second.send(Stop{}, 900);
     return true;
   };
-  EXPECT_THAT(thrown_by([&] { session.run(square(1, Sense::cw, {})); }),
-              HasSubstr("another program (process id 22, 'astrolabe stop') stopped the robot"));
+  EXPECT_THAT([&] { session.run(square(1, Sense::cw, {})); },
+              ThrowsTelling(DriveProblem::ended_early, "stopped", "22", "astrolabe stop"));
 }
 
 TEST_F(SharedPort, WhatAnotherStoppedDoesNotMoveAgainByTheNextVelocity) {
@@ -188,8 +179,8 @@ TEST_F(SharedPort, AStopBetweenTwoDrivesOfAProgramKeepsItFromTheSecond) {
   DriveSession(first.client).end();
   second.client.request(Stop{});
   const auto armed_before = rig.count(Arm::kId);
-  EXPECT_THAT(thrown_by([&] { const DriveSession session(first.client); }),
-              HasSubstr("another program (process id 22, 'astrolabe stop') has stopped the robot since"));
+  EXPECT_THAT([&] { const DriveSession session(first.client); },
+              ThrowsTelling(DriveProblem::stopped_by_another, "22", "astrolabe stop"));
   EXPECT_EQ(rig.count(Arm::kId), armed_before);
   RelayedProgram fresh(rig, 33, "astrolabe drive line 1");
   EXPECT_NO_THROW(DriveSession(fresh.client).end()) << "whoever begins now means it";
@@ -640,8 +631,8 @@ TEST_F(SharedPort, AReaderThatLosesEventsIsLetGoWithTheReason) {
   }
   EXPECT_EQ(rig.relay.closing(second.id()), FarewellReason::reads_too_slowly);
   EXPECT_LT(rig.relay.to_session(second.id()).bytes(), 100U);
-  EXPECT_THAT(thrown_by([&] { second.client.pump(seconds(1)); }),
-              AllOf(HasSubstr("lost port0"), HasSubstr("did not read what the robot sent")));
+  EXPECT_THAT([&] { second.client.pump(seconds(1)); },
+              ThrowsTelling(FarewellReason::reads_too_slowly, "port0"));
   first.client.request(GetStatus{});
 }
 
@@ -701,8 +692,8 @@ TEST_F(SharedPort, TwoUploadsAtOnceAreNeverMixed) {
     other.client.request(RevertParameters{});
     RemoteParameters others = RemoteParameters::fetch(other.client);
     others.stage("c_L", 0.99);
-    EXPECT_THAT(thrown_by([&] { parameters.stage("b", 0.3); }), testing::Not("nothing was thrown"));
-    EXPECT_THAT(thrown_by([&] { parameters.commit(); }), testing::Not("nothing was thrown"));
+    EXPECT_THROW(parameters.stage("b", 0.3), RobotRefused);
+    EXPECT_THROW(parameters.commit(), RobotRefused);
     others.commit();
     EXPECT_EQ(std::get<double>(RemoteParameters::fetch(mine).value("c_R")), 1.0)
         << "not committed by the other";
@@ -790,8 +781,9 @@ TEST(Relay, ADeviceThatSendsNoFramesIsToldFromASilentOne) {
     const std::vector<std::uint8_t> text{'l', 'o', 'g', 'i', 'n', ':'};
     if (talks) line.relay.from_robot(text, line.now);
     Client client(transport);
-    EXPECT_THAT(thrown_by([&] { client.connect(); }),
-                HasSubstr(talks ? "is not an Astrolabe robot" : "does not answer"));
+    EXPECT_THAT(
+        [&] { client.connect(); },
+        ThrowsTelling(talks ? HandshakeProblem::no_frames : HandshakeProblem::nothing_comes, "port0"));
   }
 }
 
@@ -820,8 +812,7 @@ TEST_F(SharedPort, AFaultIsReportedAsThatFaultThoughTheAbortedSegmentArrivesFirs
     rig.robot.raise(Fault::stall);
     return true;
   };
-  EXPECT_THAT(thrown_by([&] { session.run(line(1, {})); }),
-              AllOf(HasSubstr("stall"), testing::Not(HasSubstr("another program"))));
+  EXPECT_THAT([&] { session.run(line(1, {})); }, ThrowsTelling(RobotProblem::faulted, "stall"));
 }
 
 TEST_F(SharedPort, AnEmergencyStopOfAnotherIsNamedWithTheProgram) {
@@ -832,9 +823,8 @@ TEST_F(SharedPort, AnEmergencyStopOfAnotherIsNamedWithTheProgram) {
     rig.robot.raise(Fault::emergency_stop);
     return true;
   };
-  EXPECT_THAT(thrown_by([&] { session.run(line(1, {})); }),
-              AllOf(HasSubstr("another program (process id 22, 'astrolabe stop') stopped the robot"),
-                    HasSubstr("emergency_stop")));
+  EXPECT_THAT([&] { session.run(line(1, {})); },
+              ThrowsTelling(RobotProblem::faulted, "emergency_stop", "22", "astrolabe stop"));
 }
 
 }  // namespace

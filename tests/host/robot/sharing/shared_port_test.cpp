@@ -17,7 +17,9 @@
 #include "host/robot/client/client.hpp"
 #include "host/robot/port/serial_port.hpp"
 #include "host/robot/sharing/port_socket.hpp"
+#include "host/robot/sharing/relay_messages.hpp"
 #include "host/robot/sharing/relay_server.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/links/pty.hpp"
 #include "tests/support/programs/served_robot.hpp"
 
@@ -28,9 +30,10 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using support::Tells;
+using support::ThrowsTelling;
 using test::Pty;
 using test::ServedRobot;
-using testing::HasSubstr;
 
 class SharedPortOfTheSystem : public testing::Test {
  protected:
@@ -41,13 +44,8 @@ class SharedPortOfTheSystem : public testing::Test {
   }
   bool somebody_listens() const { return static_cast<bool>(connect_to(key(), seconds(1)).connection); }
 
-  std::string why_not() {
-    try {
-      ports.open(pty.path());
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "opened";
+  Remark why_not() {
+    return support::told_by([&] { ports.open(pty.path()); });
   }
 
   bool is_free() const {
@@ -127,11 +125,10 @@ TEST_F(SharedPortOfTheSystem, ANameThatAProgramOfAnotherUserHoldsIsSaidAndNotBel
   }
   char byte = 0;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
-  std::string said;
+  Remark said;
   {
-    const auto port =
-        ports.open(pty.path(), kDefaultBaud, [&](const Remark& remark) { said = remark.sentence; });
-    EXPECT_THAT(said, HasSubstr("no other program can stop or watch this robot"));
+    const auto port = ports.open(pty.path(), kDefaultBaud, [&](const Remark& remark) { said = remark; });
+    EXPECT_THAT(said, Tells(SharingProblem::not_shared, pty.path()));
   }
   for (const int end : {ready[0], ready[1], done[0], done[1]}) ::close(end);
   ::waitpid(stranger, nullptr, 0);
@@ -170,17 +167,17 @@ TEST_F(SharedPortOfTheSystem, AGuestThatIsTurnedAwayReadsWhyThoughItGoesOnWritin
   }
   Client last(ports.open(pty.path()));
   last.connect();
-  try {
-    last.request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
-    ADD_FAILURE() << "there is no place left";
-  } catch (const LinkLost& lost) {
-    EXPECT_THAT(lost.what(), HasSubstr("too many programs"));
-  }
+  EXPECT_THAT(
+      [&] {
+        last.request(protocol::SetTelemetry{1000, protocol::Telemetry::kPose});
+      },
+      ThrowsTelling<LinkLost>(FarewellReason::too_many, pty.path()))
+      << "there is no place left";
 }
 
 TEST_F(SharedPortOfTheSystem, AnExclusiveHolderIsSaidToUseThePort) {
   const auto exclusive = open_transport(pty.path());
-  EXPECT_THAT(why_not(), HasSubstr(pty.path() + " is in use by another program"));
+  EXPECT_THAT(why_not(), Tells(PortProblem::in_use, pty.path()));
 }
 
 TEST_F(SharedPortOfTheSystem, ALostLineIsALostLinkForEverybody) {
@@ -191,14 +188,9 @@ TEST_F(SharedPortOfTheSystem, ALostLineIsALostLinkForEverybody) {
   second.connect();
   robot.end();
   pty.hang_up();
-  for (Client* client : {&first, &second}) {
-    try {
-      client->pump(seconds(5));
-      FAIL();
-    } catch (const LinkLost& lost) {
-      EXPECT_THAT(lost.what(), HasSubstr("lost " + pty.path() + ": it was unplugged, switched off or ended"));
-    }
-  }
+  for (Client* client : {&first, &second})
+    EXPECT_THAT([&] { client->pump(seconds(5)); },
+                ThrowsTelling<LinkLost>(FarewellReason::line_lost, pty.path()));
 }
 
 TEST_F(SharedPortOfTheSystem, AKilledHolderIsNamedAndItsPlaceTaken) {
@@ -208,14 +200,8 @@ TEST_F(SharedPortOfTheSystem, AKilledHolderIsNamedAndItsPlaceTaken) {
   client.connect();
   ::kill(holder, SIGKILL);
   ::waitpid(holder, nullptr, 0);
-  try {
-    client.pump(seconds(5));
-    FAIL();
-  } catch (const LinkLost& lost) {
-    EXPECT_THAT(lost.what(),
-                HasSubstr("the program that held the port (process id " + std::to_string(holder)));
-    EXPECT_THAT(lost.what(), HasSubstr("has ended"));
-  }
+  EXPECT_THAT([&] { client.pump(seconds(5)); },
+              ThrowsTelling<LinkLost>(SharingProblem::holder_ended, pty.path(), std::to_string(holder)));
   client.reconnect(seconds(5));
   EXPECT_EQ(client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
   Client next(ports.open(pty.path()));
@@ -229,15 +215,11 @@ TEST_F(SharedPortOfTheSystem, AStoppedHolderIsNamedWithinBoundedTime) {
   client.connect();
   ::kill(holder, SIGSTOP);
   ::waitpid(holder, nullptr, WUNTRACED);
-  const std::string named = "the program with process id " + std::to_string(holder);
-  try {
-    client.request(protocol::GetStatus{}, {.timeout = milliseconds(20), .tries = 3});
-    ADD_FAILURE() << "answered";
-  } catch (const LinkLost& lost) {
-    EXPECT_THAT(lost.what(), HasSubstr(named));
-    EXPECT_THAT(lost.what(), HasSubstr("holds the port and does not answer"));
-  }
-  EXPECT_THAT(why_not(), HasSubstr(named)) << "a program that comes later";
+  const std::string named = std::to_string(holder);
+  const RetryPolicy hasty{.timeout = milliseconds(20), .tries = 3};
+  EXPECT_THAT([&] { client.request(protocol::GetStatus{}, hasty); },
+              ThrowsTelling<LinkLost>(SharingProblem::holder_hangs, named));
+  EXPECT_THAT(why_not(), Tells(SharingProblem::holder_hangs, named)) << "a program that comes later";
   ::kill(holder, SIGKILL);
   ::waitpid(holder, nullptr, 0);
 }
