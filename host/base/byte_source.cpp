@@ -20,7 +20,9 @@ constexpr std::size_t kWindowBytes = std::size_t{1} << 20;
 std::string cannot_read(const std::filesystem::path& path) { return "cannot read " + path.string(); }
 
 [[noreturn]] void fail(const std::filesystem::path& path, int code) {
-  throw system_error(cannot_read(path), code, ": check its permissions and the disk");
+  const Error why =
+      system_error(cannot_read(path), code, ": check its permissions and the disk", FileProblem::unreadable);
+  throw Error(why.what(), why.kind(), {path.string(), system_reason(code)});
 }
 
 }  // namespace
@@ -32,7 +34,8 @@ FileSource::FileSource(std::filesystem::path path) : path_(std::move(path)) {
   if (!descriptor_) fail(path_, errno);
   struct stat status {};
   if (::fstat(descriptor_.get(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw Error(cannot_read(path_) + ": it is not a regular file: check the path");
+    throw Error(cannot_read(path_) + ": it is not a regular file: check the path",
+                FileProblem::is_device_or_pipe, {path_.string()});
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
 

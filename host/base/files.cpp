@@ -31,10 +31,12 @@ bool is_recording(const fs::path& path) {
 
 Error too_large(const fs::path& path, std::uintmax_t size, std::uintmax_t most_bytes) {
   if (most_bytes == kMaxFileBytes)
-    return Error(path.string() + " is larger than 4 GiB: split it into shorter runs");
+    return Error(path.string() + " is larger than 4 GiB: split it into shorter runs", FileProblem::too_large,
+                 {path.string(), std::to_string(size), std::to_string(most_bytes)});
   return Error(path.string() + " has " + std::to_string(size) +
-               " bytes, and no file of its kind has more than " + std::to_string(most_bytes) +
-               ": name the right file");
+                   " bytes, and no file of its kind has more than " + std::to_string(most_bytes) +
+                   ": name the right file",
+               FileProblem::too_large, {path.string(), std::to_string(size), std::to_string(most_bytes)});
 }
 
 /// Syncs the folder, so that the new name survives a power cut, too. Some file systems cannot do that; the
@@ -66,16 +68,22 @@ Bytes loaded(const fs::path& path, std::uintmax_t most_bytes, const Judge& judge
 void require_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::status_known(status)) throw Error("cannot read " + path.string() + ": " + error.message());
+  if (!fs::status_known(status))
+    throw Error("cannot read " + path.string() + ": " + error.message(), FileProblem::unreadable,
+                {path.string(), error.message()});
   if (!fs::exists(status)) {
     if (fs::exists(part_of(path), error)) {
       throw Error(path.string() + " was never finished: what was recorded of it is in " +
-                  part_of(path).string() + "; rename that file to use it, or record the run again");
+                      part_of(path).string() + "; rename that file to use it, or record the run again",
+                  FileProblem::unfinished, {path.string()});
     }
-    throw Error(path.string() + " does not exist: check the path");
+    throw Error(path.string() + " does not exist: check the path", FileProblem::missing, {path.string()});
   }
-  if (fs::is_directory(status)) throw Error(path.string() + " is a folder: name a file in it");
-  if (!fs::is_regular_file(status)) throw Error(path.string() + " is a device or a pipe: name a file");
+  if (fs::is_directory(status))
+    throw Error(path.string() + " is a folder: name a file in it", FileProblem::is_folder, {path.string()});
+  if (!fs::is_regular_file(status))
+    throw Error(path.string() + " is a device or a pipe: name a file", FileProblem::is_device_or_pipe,
+                {path.string()});
 }
 
 Bytes load_file(const fs::path& path, std::uintmax_t most_bytes) {
@@ -88,13 +96,15 @@ Bytes load_text(const fs::path& path, std::size_t longest_line) {
     const std::string_view text = as_text(block);
     if (const std::size_t zero = text.find('\0'); zero != text.npos)
       throw Error(path.string() + " is not plain text: byte " + std::to_string(before.size() + zero + 1) +
-                  " is zero: save the table as comma separated UTF-8");
+                      " is zero: save the table as comma separated UTF-8",
+                  FileProblem::not_plain_text, {path.string(), std::to_string(before.size() + zero + 1)});
     if (const std::size_t end = text.find_last_of("\r\n"); end != text.npos)
       line_begin = before.size() + end + 1;
     if (before.size() + block.size() - line_begin > longest_line)
       throw Error(path.string() + " is no table: from byte " + std::to_string(line_begin + 1) +
-                  " on, a line has more than " + std::to_string(longest_line) +
-                  " bytes: save the table as comma separated UTF-8");
+                      " on, a line has more than " + std::to_string(longest_line) +
+                      " bytes: save the table as comma separated UTF-8",
+                  FileProblem::line_too_long, {path.string(), std::to_string(line_begin + 1)});
   });
 }
 
@@ -108,28 +118,35 @@ void require_own_kind(const fs::path& path, std::string_view mark, const std::st
   beginning.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
   if (beginning.find(mark) == std::string::npos)
     throw Error("'" + path.string() + "' exists and is no " + kind +
-                " of this program, as what would replace it is: remove it or name another file");
+                    " of this program, as what would replace it is: remove it or name another file",
+                FileProblem::of_other_kind, {path.string(), kind});
 }
 
 void require_no_input(const fs::path& path, std::initializer_list<fs::path> inputs) {
   std::error_code ignored;
   for (const fs::path& input : inputs)
     if (fs::equivalent(path, input, ignored))
-      throw Error("'" + path.string() + "' is read, and would be overwritten: name another file");
+      throw Error("'" + path.string() + "' is read, and would be overwritten: name another file",
+                  FileProblem::is_input, {path.string()});
 }
 
 PartFile::PartFile(fs::path path, Replaces replaces) : path_(std::move(path)), part_(part_of(path_)) {
   std::error_code ignored, error;
   if (fs::is_directory(path_, ignored))
-    throw Error("'" + path_.string() + "' is a folder: name a file in it");
+    throw Error("'" + path_.string() + "' is a folder: name a file in it", FileProblem::is_folder,
+                {path_.string()});
   if (fs::exists(path_, ignored) && !fs::is_regular_file(path_, ignored))
-    throw Error("'" + path_.string() + "' is a device or a pipe: name a file");
+    throw Error("'" + path_.string() + "' is a device or a pipe: name a file", FileProblem::is_device_or_pipe,
+                {path_.string()});
   const auto is_kept = [&] { return replaces != Replaces::recordings_too && is_recording(path_); };
-  const Remark kept{"'" + path_.string() + "' is a recording, and nothing replaces one: name another file"};
+  const Remark kept{"'" + path_.string() + "' is a recording, and nothing replaces one: name another file",
+                    FileProblem::is_recording,
+                    {path_.string()}};
   if (is_kept()) throw Error(kept);
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   if (error) {
-    throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message());
+    throw Error("cannot make the folder " + path_.parent_path().string() + ": " + error.message(),
+                FileProblem::folder_not_made, {path_.parent_path().string()});
   }
   open_part();
   if (!is_kept()) return;
@@ -147,10 +164,12 @@ void PartFile::open_part() {
     struct stat opened {
     }, named{};
     if (::fstat(descriptor_.get(), &opened) == 0 && !S_ISREG(opened.st_mode))
-      throw Error(part_.string() +
-                  " is no file, so nothing can be recorded there: remove it or name another file");
+      throw Error(
+          part_.string() + " is no file, so nothing can be recorded there: remove it or name another file",
+          FileProblem::is_device_or_pipe, {part_.string()});
     if (::flock(descriptor_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw Error(part_.string() + " is being written by another program: wait for it or name another file");
+      throw Error(part_.string() + " is being written by another program: wait for it or name another file",
+                  FileProblem::in_use, {part_.string()});
     // Another program may have given the file its name between open and flock: it is no longer ours to empty.
     if (::lstat(part_.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
       break;
@@ -167,10 +186,11 @@ PartFile::~PartFile() {
 
 void PartFile::fail(const std::string& what) const {
   if (errno == ELOOP)
-    throw Error(part_.string() +
-                " is a link, and nothing is written through one: remove it or name another file");
+    throw Error(
+        part_.string() + " is a link, and nothing is written through one: remove it or name another file",
+        FileProblem::is_link, {part_.string()});
   throw system_error("cannot " + what + " " + part_.string(), errno,
-                     "; check the disk or choose another folder");
+                     "; check the disk or choose another folder", FileProblem::unwritable, {part_.string()});
 }
 
 void PartFile::write(ByteView bytes) {

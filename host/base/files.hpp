@@ -11,6 +11,28 @@
 
 namespace astro {
 
+/// What is wrong with a file or a folder. Values: its path; then of too_large its size and the limit, of
+/// not_plain_text the first byte that is zero and of line_too_long the first byte of the line, both counted
+/// from 1, of unreadable what the system says, of of_other_kind the kind that it should have.
+enum class FileProblem {
+  missing,
+  unfinished,
+  unreadable,
+  unwritable,
+  is_folder,
+  is_device_or_pipe,
+  is_link,
+  is_recording,
+  is_input,
+  of_other_kind,
+  too_large,
+  not_plain_text,
+  line_too_long,
+  in_use,
+  folder_not_made,
+  folder_in_use
+};
+
 /// The largest file that is read as a whole. What holds a few settings is limited to far less.
 inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
 inline constexpr std::uintmax_t kMaxSettingsBytes = std::uintmax_t{1} << 20;

@@ -5,6 +5,10 @@
 
 namespace astro::recording {
 
+/// Why a run has no ends that can be compared. Values: the run; then of no_rest and no_truth "start" or
+/// "end".
+enum class EndProblem { no_odometry, no_rest, no_truth, no_heading, never_moves };
+
 /// The end of a run by ground truth and by odometry, each in the frame of its own start; theta of truth is NaN if truth has
 /// no heading at the end, and neither is wrapped.
 struct RunEnds {

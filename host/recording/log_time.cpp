@@ -6,6 +6,7 @@
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
 #include "host/formats/messages/ros_messages.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::recording {
 
@@ -15,7 +16,8 @@ LogTime::LogTime(std::filesystem::path file, std::string started_at)
 std::int64_t LogTime::ns(std::int64_t time_us) {
   if (!ros2::fits_stamp(time_us)) {
     throw Error(file_.string() + " cannot hold the time " + std::to_string(time_us) +
-                " us: times are microseconds of the robot's clock, within 2^31 s");
+                    " us: times are microseconds of the robot's clock, within 2^31 s",
+                RecordingProblem::time_out_of_range, {file_.string(), std::to_string(time_us)});
   }
   if (!utc_offset_us_) {
     const auto started = utc_time(started_at_);

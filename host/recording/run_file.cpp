@@ -36,7 +36,8 @@ struct Streams {
   template <class T>
   void keep(std::deque<T>& stream, const std::optional<T>& sample) {
     if (odometry.size() + counts.size() + truth.size() >= most)
-      throw Error(file + " holds more samples than any drive whose recording has its size: it is damaged");
+      throw Error(file + " holds more samples than any drive whose recording has its size: it is damaged",
+                  RecordingProblem::too_many_samples, {file});
     if (sample) stream.push_back(*sample);
     unreadable = unreadable || !sample;
   }
@@ -62,12 +63,16 @@ struct RunFile {
 /// The warning for a file that is not complete; "" if it is.
 std::string warning_of(const std::string& file, const bag::McapReport& report, Damage damage) {
   if (!report.is_mcap)
-    throw Error(file + " is not an MCAP file: name a recording made by Astrolabe",
-                RecordingProblem::not_mcap);
-  const std::string damaged =
-      file + " is damaged (" + (report.warnings.empty() ? std::string() : report.warnings.front()) + ")";
-  if (report.damaged && damage == Damage::refused)
-    throw DamagedRecording(damaged + ": copy it again from where it was recorded, or record the run again");
+    throw Error(file + " is not an MCAP file: name a recording made by Astrolabe", RecordingProblem::not_mcap,
+                {file});
+  const Remark first = report.warnings.empty() ? Remark{} : report.warnings.front();
+  const std::string damaged = file + " is damaged (" + first.sentence + ")";
+  if (report.damaged && damage == Damage::refused) {
+    std::vector<std::string> values{file};
+    values.insert(values.end(), first.values.begin(), first.values.end());
+    throw DamagedRecording(damaged + ": copy it again from where it was recorded, or record the run again",
+                           first.kind, values);
+  }
   if (report.damaged) return damaged + ": some of the run is missing, and results from it may be wrong";
   if (report.truncated) return file + " was cut off while it was recorded: what was driven last is missing";
   return "";
@@ -85,7 +90,7 @@ RunRecord record_in(ByteSource& source, const std::string& file, Damage damage, 
   if (!entries) {
     throw Error(file + " is not a recording of a run (it has no record " + std::string(kRunRecordName) +
                     "): name a recording made by Astrolabe",
-                RecordingProblem::of_no_run);
+                RecordingProblem::of_no_run, {file});
   }
   return run_record(*entries, file);
 }
@@ -121,7 +126,8 @@ void pair_counts(const std::string& file, bool cut_off, Streams& streams) {
   }
   if (!good) {
     throw Error(file + " holds messages that do not belong to a run (the poses of /odom do not match the " +
-                "counts of /wheel_counts): the file was edited; use the original");
+                    "counts of /wheel_counts): the file was edited; use the original",
+                RecordingProblem::poses_without_counts, {file});
   }
   streams.odometry.resize(pairs);
 }

@@ -14,8 +14,21 @@
 ///             sample comes back as NaN. `warning` is not stored.
 namespace astro::recording {
 
-/// What is no recording.
-enum class RecordingProblem { not_mcap, of_no_run, none_in_folder };
+/// What is no recording. Values: the file or the folder; then of folder_unreadable what the system says, of
+/// bad_entry the entry's key, of time_out_of_range the time in microseconds.
+enum class RecordingProblem {
+  not_mcap,
+  of_no_run,
+  of_newer_version,
+  bad_entry,
+  too_many_samples,
+  poses_without_counts,
+  time_out_of_range,
+  none_in_folder,
+  folder_missing,
+  folder_is_file,
+  folder_unreadable
+};
 
 /// Writes a run; the file appears complete or not at all. Throws astro::Error naming the file.
 void write_run(const std::filesystem::path& path, const Run& run);
@@ -24,7 +37,8 @@ void write_run(const std::filesystem::path& path, const Run& run);
 /// noticing, so it is used only on request.
 enum class Damage { refused, accepted };
 
-/// Part of the file cannot be read, and Damage::refused was given.
+/// Part of the file cannot be read, and Damage::refused was given. Its kind is the first bag::McapProblem
+/// that was found; its values are the file and those of that problem.
 class DamagedRecording : public Error {
  public:
   using Error::Error;

@@ -7,24 +7,34 @@
 
 namespace astro::recording {
 namespace fs = std::filesystem;
+namespace {
+
+Error unreadable(const fs::path& folder, const std::error_code& why) {
+  return Error("cannot list the folder " + folder.string() + ": " + why.message(),
+               RecordingProblem::folder_unreadable, {folder.string(), why.message()});
+}
+
+}  // namespace
 
 std::vector<fs::path> list_runs(const fs::path& folder) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
-  if (!fs::status_known(status))
-    throw Error("cannot list the folder " + folder.string() + ": " + error.message());
+  if (!fs::status_known(status)) throw unreadable(folder, error);
   if (!fs::exists(status))
-    throw Error(folder.string() + " does not exist: name a folder that holds recorded runs");
+    throw Error(folder.string() + " does not exist: name a folder that holds recorded runs",
+                RecordingProblem::folder_missing, {folder.string()});
   if (!fs::is_directory(folder, error))
-    throw Error(folder.string() + " is a file: name a folder that holds recorded runs");
+    throw Error(folder.string() + " is a file: name a folder that holds recorded runs",
+                RecordingProblem::folder_is_file, {folder.string()});
   std::vector<fs::path> paths;
   for (auto it = fs::recursive_directory_iterator(folder, error);
        !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
     if (it->path().extension() == ".mcap" && it->is_regular_file()) paths.push_back(it->path());
   }
-  if (error) throw Error("cannot list the folder " + folder.string() + ": " + error.message());
+  if (error) throw unreadable(folder, error);
   if (paths.empty()) {
-    throw Error("no recordings (*.mcap) in " + folder.string(), RecordingProblem::none_in_folder);
+    throw Error("no recordings (*.mcap) in " + folder.string(), RecordingProblem::none_in_folder,
+                {folder.string()});
   }
   std::sort(paths.begin(), paths.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.generic_string(), b.generic_string());

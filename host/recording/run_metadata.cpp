@@ -6,6 +6,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/base/text/sense.hpp"
+#include "host/recording/run_file.hpp"
 
 namespace astro::recording {
 namespace {
@@ -58,7 +59,8 @@ class Entries {
   }
   [[noreturn]] void bad(std::string_view key, const std::string& text) const {
     throw Error(file_ + " has the run record entry " + std::string(key) + " = \"" + text +
-                "\", which makes no sense: the file was edited or damaged; record the run again");
+                    "\", which makes no sense: the file was edited or damaged; record the run again",
+                RecordingProblem::bad_entry, {file_, std::string(key)});
   }
 
  private:
@@ -108,7 +110,8 @@ bag::mcap::Map to_map(const RunRecord& record) {
 RunRecord run_record(const bag::mcap::Map& map, const std::string& file) {
   const Entries entries(map, file);
   if (entries.integer("format", kFormat) > kFormat) {
-    throw Error(file + " was written by a newer version of Astrolabe: update this program");
+    throw Error(file + " was written by a newer version of Astrolabe: update this program",
+                RecordingProblem::of_newer_version, {file});
   }
   RunRecord record;
   record.info.direction = direction_in(entries);

@@ -56,10 +56,11 @@ CsvRow split_line(std::string_view text, int line, std::string_view name) {
     if (text[i] != ',' || inside) continue;
     out.cells.push_back(unquoted(trimmed(text.substr(begin, i - begin))));
     if (out.cells.size() >= kMostColumns)
-      refuse(name, line, "the line has more than 1000 cells: this is no table of runs or poses");
+      refuse(name, line, "the line has more than 1000 cells: this is no table of runs or poses",
+             CsvProblem::too_many_columns);
     begin = i + 1;
   }
-  if (inside) refuse(name, line, "a quote is opened and not closed on its line");
+  if (inside) refuse(name, line, "a quote is opened and not closed on its line", CsvProblem::open_quote);
   out.cells.push_back(unquoted(trimmed(text.substr(begin))));
   return out;
 }
@@ -76,26 +77,32 @@ void require_width(const CsvTable& table, const CsvRow& row, std::string_view na
   if (row.cells.size() == expected) return;
   refuse(name, row.line,
          "the row has " + std::to_string(row.cells.size()) + " cells and the header " +
-             std::to_string(expected) + ": give every column a cell, and write numbers with a decimal point");
+             std::to_string(expected) + ": give every column a cell, and write numbers with a decimal point",
+         CsvProblem::row_of_other_length, {std::to_string(row.cells.size()), std::to_string(expected)});
 }
 
 void require_commas(const CsvRow& header, std::string_view name) {
   if (header.cells.size() > 1 || header.cells[0].find(';') == std::string::npos) return;
   refuse(name, header.line,
-         "the cells are separated by semicolons: use commas, and decimal points in the numbers");
+         "the cells are separated by semicolons: use commas, and decimal points in the numbers",
+         CsvProblem::semicolons);
 }
 
 }  // namespace
 
-void refuse(std::string_view name, int line, const std::string& what, Kind kind) {
-  throw Error(std::string(name) + ", line " + std::to_string(line) + ": " + what, kind);
+void refuse(std::string_view name, int line, const std::string& what, Kind kind,
+            const std::vector<std::string>& more) {
+  std::vector<std::string> values{std::string(name), std::to_string(line)};
+  values.insert(values.end(), more.begin(), more.end());
+  throw Error(values[0] + ", line " + values[1] + ": " + what, kind, values);
 }
 
 CsvTable split_csv(std::string_view text, std::string_view name) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos)
     throw Error(std::string(name) + " is not plain text: byte " + std::to_string(at + 1) +
-                " is zero: save the table as comma separated UTF-8");
+                    " is zero: save the table as comma separated UTF-8",
+                CsvProblem::not_plain_text, {std::string(name), std::to_string(at + 1)});
   CsvTable out;
   std::size_t memory = 0;
   const std::size_t most = kFreeTableBytes + 2 * text.size();
@@ -108,13 +115,15 @@ CsvTable split_csv(std::string_view text, std::string_view name) {
     } else {
       require_width(out, row, name);
       if ((memory += memory_of(row)) > most)
-        refuse(name, line, "the table has more cells than can be held: split it into one file for each run");
+        refuse(name, line, "the table has more cells than can be held: split it into one file for each run",
+               CsvProblem::too_many_cells);
       out.rows.push_back(std::move(row));
     }
   }
   if (out.header.line == 0) {
-    throw Error(std::string(name) +
-                " is empty: it needs a header such as ex_mm,ey_mm,etheta_rad and a row per run");
+    throw Error(
+        std::string(name) + " is empty: it needs a header such as ex_mm,ey_mm,etheta_rad and a row per run",
+        CsvProblem::empty, {std::string(name)});
   }
   return out;
 }

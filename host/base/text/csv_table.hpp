@@ -8,6 +8,18 @@
 
 namespace astro {
 
+/// Why text is no table. Values: its name; of all but `empty` the line, or of not_plain_text the byte that is
+/// zero, counted from 1; of row_of_other_length how many cells the row and the header have.
+enum class CsvProblem {
+  empty,
+  not_plain_text,
+  semicolons,
+  open_quote,
+  too_many_columns,
+  too_many_cells,
+  row_of_other_length
+};
+
 struct CsvRow {
   int line = 0;  // in the file, from 1
   std::vector<std::string> cells;
@@ -24,7 +36,8 @@ struct CsvTable {
 /// it, more than 1000 columns, a table that would take more memory than 48 MiB plus twice its text.
 CsvTable split_csv(std::string_view text, std::string_view name);
 
-/// Throws astro::Error("NAME, line N: WHAT").
-[[noreturn]] void refuse(std::string_view name, int line, const std::string& what, Kind kind = {});
+/// Throws astro::Error("NAME, line N: WHAT"). Its values are the name, the line and `more`.
+[[noreturn]] void refuse(std::string_view name, int line, const std::string& what, Kind kind = {},
+                         const std::vector<std::string>& more = {});
 
 }  // namespace astro

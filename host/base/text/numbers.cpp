@@ -50,8 +50,10 @@ int count_in(std::string_view text, std::string_view name) {
   constexpr std::size_t kShown = 40;
   const auto count = integer_in(text);
   if (count && *count >= 0) return *count;
-  throw Error(std::string(name) + " is " + std::string(text.substr(0, kShown)) +
-              ", not a whole number from 0 to " + std::to_string(std::numeric_limits<int>::max()));
+  const std::string shown(text.substr(0, kShown));
+  throw Error(std::string(name) + " is " + shown + ", not a whole number from 0 to " +
+                  std::to_string(std::numeric_limits<int>::max()),
+              NumberProblem::not_a_count, {std::string(name), shown});
 }
 
 std::optional<double> typed_number(std::string_view text) {

@@ -26,6 +26,9 @@ std::optional<double> number_in(std::string_view text);
 std::optional<int> integer_in(std::string_view text);
 std::optional<std::uint64_t> unsigned_in(std::string_view text);
 
+/// What a number in a file is not. Values: its name and its text, of which at most 40 characters.
+enum class NumberProblem { not_a_count };
+
 /// The count that `text` from a file is. Throws astro::Error, which shows the name and the text, for anything
 /// else than a whole number from 0 to the greatest int: conversions would make some number of 1e300 and 2^32 + 5.
 int count_in(std::string_view text, std::string_view name);

@@ -4,6 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/calibration/end_poses/end_pose.hpp"
 
 namespace astro::calibration {
 
@@ -17,11 +18,13 @@ void require_usable(const WheelFactors& loaded) {
   const auto usable = [](double value) { return std::isfinite(value) && value > 0; };
   if (!usable(loaded.b_m)) {
     throw Error("the loaded wheelbase is " + to_text(loaded.b_m) +
-                " m, and has to be the distance between the wheels in metres, such as 0.29");
+                    " m, and has to be the distance between the wheels in metres, such as 0.29",
+                EndPoseProblem::bad_wheelbase, {to_text(loaded.b_m)});
   }
   if (!usable(loaded.c_r) || !usable(loaded.c_l)) {
     throw Error("the loaded wheel factors are c_R = " + to_text(loaded.c_r) + " and c_L = " +
-                to_text(loaded.c_l) + ", and have to be positive ratios, 1 for a nominal wheel");
+                    to_text(loaded.c_l) + ", and have to be positive ratios, 1 for a nominal wheel",
+                EndPoseProblem::bad_wheel_factors, {to_text(loaded.c_r), to_text(loaded.c_l)});
   }
 }
 

@@ -14,14 +14,18 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-void require_values(std::span<const EndPose> runs, const std::string& set) {
+/// `direction`: "clockwise", or nothing.
+void require_values(std::span<const EndPose> runs, const std::string& direction) {
+  const std::string set = direction.empty() ? "" : direction + ' ';
   if (runs.empty()) {
-    throw Error("there is no " + set + "run: record at least one, better five");
+    throw Error("there is no " + set + "run: record at least one, better five", EndPoseProblem::no_run,
+                direction.empty() ? std::vector<std::string>{} : std::vector{direction});
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string run = set + "run " + std::to_string(i + 1);
     if (!std::isfinite(runs[i].x_m) || !std::isfinite(runs[i].y_m) || std::isinf(runs[i].theta_rad)) {
-      throw Error(run + " has an end pose that is not finite: measure it again or leave the run out");
+      throw Error(run + " has an end pose that is not finite: measure it again or leave the run out",
+                  EndPoseProblem::not_finite, {run});
     }
   }
 }
@@ -50,8 +54,8 @@ MeanAndSquares moments_of(std::span<const EndPose> runs, double EndPose::*value)
   return out;
 }
 
-ClusterSummary summarize_set(std::span<const EndPose> runs, const std::string& set) {
-  require_values(runs, set);
+ClusterSummary summarize_set(std::span<const EndPose> runs, const std::string& direction) {
+  require_values(runs, direction);
   ClusterSummary out;
   out.runs = static_cast<int>(runs.size());
   const MeanAndSquares x = moments_of(runs, &EndPose::x_m), y = moments_of(runs, &EndPose::y_m),
@@ -78,8 +82,8 @@ ClusterSummary summarize(std::span<const EndPose> runs) { return summarize_set(r
 
 ExperimentSummary summarize(std::span<const EndPose> cw, std::span<const EndPose> ccw) {
   ExperimentSummary out;
-  out.cw = summarize_set(cw, std::string(in_words(Sense::cw)) + ' ');
-  out.ccw = summarize_set(ccw, std::string(in_words(Sense::ccw)) + ' ');
+  out.cw = summarize_set(cw, in_words(Sense::cw));
+  out.ccw = summarize_set(ccw, in_words(Sense::ccw));
   const ClusterSummary& worse = out.cw.r_cg_m > out.ccw.r_cg_m ? out.cw : out.ccw;
   out.E_max_syst_m = worse.r_cg_m;
   out.se_E_max_syst_m = worse.se_r_m;

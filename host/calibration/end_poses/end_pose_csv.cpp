@@ -83,7 +83,8 @@ std::optional<Column> find_column(const CsvTable& table, const Quantity& quantit
       if (found) {
         refuse(name, table.header.line,
                "columns " + found->title + " and " + title + " both give " + std::string(quantity.name) +
-                   ": keep one of them");
+                   ": keep one of them",
+               EndPoseTableProblem::two_columns, {found->title, title});
       }
       found = Column{i, title, *to_si};
     } else if (lacks_unit(lower_case(title), quantity)) {
@@ -92,21 +93,24 @@ std::optional<Column> find_column(const CsvTable& table, const Quantity& quantit
   }
   if (!found && !unitless.empty()) {
     refuse(name, table.header.line,
-           "column " + unitless + " does not say its unit, as " + spellings(quantity) + " does");
+           "column " + unitless + " does not say its unit, as " + spellings(quantity) + " does",
+           EndPoseTableProblem::no_unit, {unitless});
   }
   return found;
 }
 
 Column require_column(const CsvTable& table, const Quantity& quantity, std::string_view name) {
   if (const auto found = find_column(table, quantity, name)) return *found;
-  refuse(name, table.header.line, "there is no column " + spellings(quantity));
+  refuse(name, table.header.line, "there is no column " + spellings(quantity), EndPoseTableProblem::no_column,
+         {std::string(quantity.name)});
 }
 
 double number(const CsvRow& row, const Column& column, std::string_view name) {
   const std::string& cell = row.cells[column.index];
   const std::string where = "column " + column.title + ": ";
   if (cell.empty())
-    refuse(name, row.line, where + "the cell is empty: write the number or leave the run out");
+    refuse(name, row.line, where + "the cell is empty: write the number or leave the run out",
+           EndPoseTableProblem::empty_cell, {column.title});
   const char* const end = cell.data() + cell.size();
   // from_chars, because unlike strtod it does not depend on the locale. It accepts no plus sign, which a
   // spreadsheet may write.
@@ -114,11 +118,13 @@ double number(const CsvRow& row, const Column& column, std::string_view name) {
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::invalid_argument || stop != end) {
-    refuse(name, row.line, where + "\"" + cell + "\" is not a number such as -12.5");
+    refuse(name, row.line, where + "\"" + cell + "\" is not a number such as -12.5",
+           EndPoseTableProblem::not_a_number, {column.title, cell});
   }
   if (error != std::errc{} || !std::isfinite(value)) {
     refuse(name, row.line,
-           where + "\"" + cell + "\" is not a finite number: measure it again or leave the run out");
+           where + "\"" + cell + "\" is not a finite number: measure it again or leave the run out",
+           EndPoseTableProblem::not_finite, {column.title, cell});
   }
   return value * column.to_si;
 }
@@ -136,7 +142,8 @@ Columns find_columns(const CsvTable& table, std::string_view name) {
     if (lower_case(table.header.cells[i]) == "direction") out.direction = i;
   }
   if (table.rows.empty()) {
-    throw Error(std::string(name) + " has a header and no data rows: it needs one per run below it");
+    throw Error(std::string(name) + " has a header and no data rows: it needs one per run below it",
+                EndPoseTableProblem::no_rows, {std::string(name)});
   }
   return out;
 }
@@ -153,7 +160,8 @@ Sense sense_of(const CsvRow& row, std::size_t direction, std::string_view name) 
   const std::optional<Sense> sense = sense_named(lower_case(row.cells[direction]));
   if (!sense) {
     refuse(name, row.line,
-           "column direction: \"" + row.cells[direction] + "\" is not a direction, which is cw or ccw");
+           "column direction: \"" + row.cells[direction] + "\" is not a direction, which is cw or ccw",
+           EndPoseTableProblem::no_direction, {row.cells[direction]});
   }
   return *sense;
 }
@@ -168,7 +176,8 @@ std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name
     const auto direction = columns.direction;
     if (direction && sense_of(row, *direction, name) != sense_of(table.rows[0], *direction, name)) {
       refuse(name, row.line,
-             "column direction: the file mixes cw and ccw runs where one direction is wanted: split it");
+             "column direction: the file mixes cw and ccw runs where one direction is wanted: split it",
+             EndPoseTableProblem::both_directions);
     }
     out.push_back(pose(row, columns, name));
   }

@@ -24,6 +24,22 @@
 ///   a cell that is empty, not a number, not finite, or not a direction
 namespace astro::calibration {
 
+/// Why a table has no end poses, beside what a CsvProblem says. Values: its name; of all but no_rows the
+/// line; then of no_column the quantity ("ex"), of no_unit the column's title, of two_columns both titles,
+/// of no_direction the cell, of empty_cell, not_a_number and not_finite the column's title and what is in
+/// the cell.
+enum class EndPoseTableProblem {
+  no_rows,
+  no_column,
+  two_columns,
+  no_unit,
+  empty_cell,
+  not_a_number,
+  not_finite,
+  no_direction,
+  both_directions
+};
+
 /// The rows in file order. Refuses a file whose `direction` column mixes both directions.
 std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name);
 

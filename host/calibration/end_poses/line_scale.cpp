@@ -7,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/base/pose2.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/end_poses/robust_weight.hpp"
 
 namespace astro::calibration {
@@ -64,7 +65,8 @@ std::optional<LineScale> scale_of_lines(std::span<const LineEnd> lines, const En
   }
   if (!(scale > 0.5 && scale < 2))
     throw Error("the measured lines give a scale of " + to_text(scale) +
-                ", and a robot has one between 0.5 and 2: check the units");
+                    ", and a robot has one between 0.5 and 2: check the units",
+                EndPoseProblem::implausible_scale, {to_text(scale)});
   return LineScale{scale, std::sqrt(kLossOfNormal * scatter / sums.information),
                    static_cast<int>(lines.size())};
 }

@@ -130,7 +130,8 @@ double cautious(double scatter) {
 [[noreturn]] void fail() {
   throw Error(
       "no pair of wheel and wheelbase ratios explains these ends of squares: check the units, the side "
-      "length and that the clockwise and counter-clockwise runs are not exchanged");
+      "length and that the clockwise and counter-clockwise runs are not exchanged",
+      EndPoseProblem::no_ratios_fit);
 }
 
 }  // namespace

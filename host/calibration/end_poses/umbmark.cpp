@@ -76,7 +76,8 @@ Parameters best_fit(const EndPositions& positions, Parameters p) {
   }
   throw Error(
       "no pair of wheel and wheelbase ratios explains these end positions: check the units, the side length "
-      "and that the clockwise and counter-clockwise runs are not exchanged");
+      "and that the clockwise and counter-clockwise runs are not exchanged",
+      EndPoseProblem::no_ratios_fit);
 }
 
 /// The E_d and E_b whose exact replay (replay.hpp) comes closest to the measured end positions, in the sense
@@ -136,18 +137,22 @@ void require_inputs(std::span<const EndPose> cw, std::span<const EndPose> ccw, d
                     const WheelFactors& loaded) {
   if (!std::isfinite(side_m) || side_m <= 0) {
     throw Error("the side of the square is " + to_text(side_m) +
-                " m, and has to be the length of one leg in metres, such as 3");
+                    " m, and has to be the length of one leg in metres, such as 3",
+                EndPoseProblem::bad_side, {to_text(side_m)});
   }
   require_usable(loaded);
   if (cw.empty() && ccw.empty()) {
     throw Error(
-        "there are no runs at all: drive the square at least once clockwise and once counter-clockwise");
+        "there are no runs at all: drive the square at least once clockwise and once counter-clockwise",
+        EndPoseProblem::no_runs);
   }
   if (cw.empty() || ccw.empty()) {
-    throw Error(std::string("there are no ") + in_words(cw.empty() ? Sense::cw : Sense::ccw) +
-                " runs, and one direction alone cannot separate the error of the wheel diameters from "
-                "that of the "
-                "wheelbase: drive the square at least once clockwise and once counter-clockwise");
+    const std::string missing = in_words(cw.empty() ? Sense::cw : Sense::ccw);
+    throw Error("there are no " + missing +
+                    " runs, and one direction alone cannot separate the error of the wheel diameters from "
+                    "that of the "
+                    "wheelbase: drive the square at least once clockwise and once counter-clockwise",
+                EndPoseProblem::one_direction_only, {missing});
   }
 }
 
@@ -155,16 +160,19 @@ void require_headings(std::span<const EndPose> runs, const std::string& directio
   const auto lacks = [](const EndPose& run) { return std::isnan(run.theta_rad); };
   const bool none = std::all_of(runs.begin(), runs.end(), lacks);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string run = direction + " run " + std::to_string(i + 1);
     if (lacks(runs[i])) {
       throw Error(
-          (none ? "the " + direction + " runs have" : direction + " run " + std::to_string(i + 1) + " has") +
-          " no heading error, which the extended method calibrates from: measure the end headings "
-          "(etheta_rad or etheta_deg), or use the method umbmark");
+          (none ? "the " + direction + " runs have" : run + " has") +
+              " no heading error, which the extended method calibrates from: measure the end headings "
+              "(etheta_rad or etheta_deg), or use the method umbmark",
+          none ? EndPoseProblem::no_headings : EndPoseProblem::no_heading, {none ? direction : run});
     }
     if (std::abs(runs[i].theta_rad) > std::numbers::pi) {
-      throw Error(direction + " run " + std::to_string(i + 1) + " has a heading error of " +
-                  to_text(runs[i].theta_rad) +
-                  " rad, more than half a turn, outside the range of -180 to 180 degrees: check the units");
+      throw Error(
+          run + " has a heading error of " + to_text(runs[i].theta_rad) +
+              " rad, more than half a turn, outside the range of -180 to 180 degrees: check the units",
+          EndPoseProblem::heading_beyond_half_a_turn, {run, to_text(runs[i].theta_rad)});
     }
   }
 }
@@ -173,8 +181,9 @@ void require_plausible(const Ratios& r) {
   const auto plausible = [](double ratio) { return ratio > 0.5 && ratio < 2; };
   if (plausible(r.E_d) && plausible(r.E_b)) return;
   throw Error("the end poses give E_d = " + std::to_string(r.E_d) + " and E_b = " + std::to_string(r.E_b) +
-              ", and a robot that drives a square has both between 0.5 and 2: check the units, the side "
-              "length and that the clockwise and counter-clockwise runs are not exchanged");
+                  ", and a robot that drives a square has both between 0.5 and 2: check the units, the side "
+                  "length and that the clockwise and counter-clockwise runs are not exchanged",
+              EndPoseProblem::implausible_ratios, {std::to_string(r.E_d), std::to_string(r.E_b)});
 }
 
 Vector6 means_of(const ExperimentSummary& s) {

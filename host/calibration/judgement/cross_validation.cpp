@@ -127,7 +127,9 @@ Remark CrossValidation::without(const std::vector<std::string>& held_out, const 
   std::string names;
   for (std::size_t i = 0; i < held_out.size(); ++i)
     names += (i == 0 ? "" : i + 1 < held_out.size() ? ", " : " and ") + held_out[i];
-  return error.in("without " + names + ", ");
+  Remark clause = error.in("without " + names + ", ");
+  clause.values.insert(clause.values.end(), held_out.begin(), held_out.end());
+  return clause;
 }
 
 Verdict judge_gains(std::span<const double> gains) {

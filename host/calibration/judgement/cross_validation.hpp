@@ -48,7 +48,8 @@ struct CrossValidation {
 
   /// Sets the verdict.
   void judge();
-  /// For `not_judged`: "without run 1 and run 3, the runs do not separate ...".
+  /// For `not_judged`: "without run 1 and run 3, the runs do not separate ...". Its kind is the
+  /// error's, its values are those of the error and then the names.
   static Remark without(const std::vector<std::string>& held_out, const Error& error);
 };
 

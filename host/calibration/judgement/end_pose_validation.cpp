@@ -95,7 +95,8 @@ CrossValidation cross_validate(std::span<const EndPose> cw, std::span<const EndP
 void cross_validate_scale(std::span<const LineEnd> lines, const WheelFactors& in_use, const LineScale& scale,
                           CrossValidation& judged) {
   if (lines.size() < 2) {
-    judged.not_judged.push_back({"the scale comes from a single line: drive lines or squares as well"});
+    judged.not_judged.push_back({"the scale comes from a single line: drive lines or squares as well",
+                                 JudgementProblem::single_line});
     return;
   }
   const double loaded = (in_use.c_r + in_use.c_l) / 2;

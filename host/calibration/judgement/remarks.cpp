@@ -9,23 +9,29 @@
 namespace astro::calibration {
 namespace {
 
-std::string outlier_sentence(const RunFit& run) {
-  return fmt::format(
-      "{} disagrees with the others about the factors (chi-square {:.0f} of {}): a slip, a push or a wrong "
-      "ground truth",
-      run.name, run.disagreement, run.disagreement_dof);
+Remark outlier_remark(const RunFit& run) {
+  return {fmt::format("{} disagrees with the others about the factors (chi-square {:.0f} of {}): a slip, a "
+                      "push or a wrong "
+                      "ground truth",
+                      run.name, run.disagreement, run.disagreement_dof),
+          JudgementProblem::run_stands_out,
+          {run.name}};
 }
 
-std::string slip_sentence(const RunFit& run) {
-  std::vector<std::string> moments;
-  for (const SlipEvent& event : run.slip_events)
-    moments.push_back(
-        fmt::format("{:.1f} s after its start by {:.1f}°", event.since_start_s, degrees(event.turned_rad)));
-  return fmt::format(
-      "{}: the ground truth turned and the wheels did not, {}: a castor, a cable, a hand, or markers taken "
-      "for "
-      "others",
-      run.name, fmt::join(moments, " and "));
+Remark slip_remark(const RunFit& run) {
+  std::vector<std::string> moments, values{run.name};
+  for (const SlipEvent& event : run.slip_events) {
+    const std::string when_s = fmt::format("{:.1f}", event.since_start_s),
+                      turned_deg = fmt::format("{:.1f}", degrees(event.turned_rad));
+    moments.push_back(when_s + " s after its start by " + turned_deg + "°");
+    values.insert(values.end(), {when_s, turned_deg});
+  }
+  return {fmt::format("{}: the ground truth turned and the wheels did not, {}: a castor, a cable, a hand, or "
+                      "markers taken "
+                      "for "
+                      "others",
+                      run.name, fmt::join(moments, " and ")),
+          JudgementProblem::run_slipped, values};
 }
 
 }  // namespace
@@ -34,16 +40,18 @@ std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
   std::vector<Remark> list;
   for (const Remark& why : estimate.left_out) list.push_back(why.in("left out: "));
   for (const RunFit& run : estimate.runs)
-    if (run.outlier) list.push_back({outlier_sentence(run), JudgementProblem::run_stands_out});
+    if (run.outlier) list.push_back(outlier_remark(run));
   for (const RunFit& run : estimate.runs)
-    if (!run.slip_events.empty()) list.push_back({slip_sentence(run), JudgementProblem::run_slipped});
+    if (!run.slip_events.empty()) list.push_back(slip_remark(run));
   const double ratio = estimate.chi_square / estimate.degrees_of_freedom;
   const char* const noise = noise_given ? "given" : "estimated";
+  const JudgementProblem noise_problem =
+      noise_given ? JudgementProblem::given_noise_is_wrong : JudgementProblem::estimated_noise_is_wrong;
   if (ratio < 0.5)
     list.push_back({fmt::format("the ground truth is only {:.2g} times as far from the wheels as the {} "
                                 "noise explains, so the standard errors are too large",
                                 std::sqrt(ratio), noise),
-                    noise_given ? Kind(JudgementProblem::given_noise_is_wrong) : Kind()});
+                    noise_problem});
   if (ratio > 1.5)
     list.push_back(
         {fmt::format("the ground truth is {:.1f} times as far from the wheels as the {} noise "
@@ -52,7 +60,7 @@ std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
                      noise_given ? ""
                                  : "; look for a run whose chi²/dof is far above the others', for slip, and "
                                    "for truth of another drive"),
-         noise_given ? Kind(JudgementProblem::given_noise_is_wrong) : Kind()});
+         noise_problem});
   if (estimate.dispersion > 1)
     list.push_back(
         {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "

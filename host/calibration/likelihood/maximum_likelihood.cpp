@@ -286,11 +286,11 @@ MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& facto
 
 void require_observed(const MlErrors& se, const WheelFactors& factors) {
   if (are_observed(se, factors)) return;
-  throw Error(
-      fmt::format("the runs do not separate c_R, c_L and b (standard errors {:.2g}, {:.2g} and "
-                  "{:.2g} m), because all "
-                  "of them move alike: drive both ways round, and lines as well as turns",
-                  se.c_r, se.c_l, se.b_m));
+  throw Error(fmt::format("the runs do not separate c_R, c_L and b (standard errors {:.2g}, {:.2g} and "
+                          "{:.2g} m), because all "
+                          "of them move alike: drive both ways round, and lines as well as turns",
+                          se.c_r, se.c_l, se.b_m),
+              LikelihoodProblem::all_move_alike);
 }
 
 }  // namespace astro::calibration

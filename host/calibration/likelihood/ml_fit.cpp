@@ -400,10 +400,12 @@ void MlFit::require_plausible() const {
   const Unknowns& u = state_.unknowns.front();
   const auto outside = [](double ratio) { return !(ratio > 0.5 && ratio < 2); };
   if (outside(u[kCRight]) || outside(u[kCLeft]) || outside(u[kB] / loaded_.b_m))
-    throw Error(fmt::format(
-        "c_R = {:.3g}, c_L = {:.3g} and b = {:.3g} m came out, which no robot of {:.3g} m "
-        "wheelbase has: check the unit of the ground truth, the wheel diameter and the counts of a turn",
-        u[kCRight], u[kCLeft], u[kB], loaded_.b_m));
+    throw Error(
+        fmt::format(
+            "c_R = {:.3g}, c_L = {:.3g} and b = {:.3g} m came out, which no robot of {:.3g} m "
+            "wheelbase has: check the unit of the ground truth, the wheel diameter and the counts of a turn",
+            u[kCRight], u[kCLeft], u[kB], loaded_.b_m),
+        LikelihoodProblem::implausible_factors);
 }
 
 }  // namespace astro::calibration

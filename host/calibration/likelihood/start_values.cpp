@@ -100,11 +100,13 @@ void require_variety(const PreparedRuns& runs) {
   if (rotation_rad < kLeastTurn_rad)
     throw Error(
         "the robot never turned, so its wheelbase cannot be determined: drive squares, circles or spins as "
-        "well");
+        "well",
+        LikelihoodProblem::never_turned);
   if (distance_m < 0.02 * rotation_rad)
     throw Error(
         "the robot only turned on the spot, which determines the ratio of wheels and wheelbase but no size: "
-        "drive lines or squares as well");
+        "drive lines or squares as well",
+        LikelihoodProblem::only_spun);
 }
 
 std::vector<Unknowns> start_values(const PreparedRuns& runs, const WheelFactors& loaded) {

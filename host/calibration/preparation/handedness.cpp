@@ -46,15 +46,18 @@ Positions handedness_of_positions(const PreparedRun& run, const std::vector<Body
 
 [[noreturn]] void refuse_opposite_turn(const std::string& name, Positions positions) {
   if (positions == Positions::agree)
-    throw Error(name +
-                ": the headings of the ground truth turn right where its positions and the wheels turn left: "
-                "they are clockwise; negate them");
+    throw Error(
+        name +
+            ": the headings of the ground truth turn right where its positions and the wheels turn left: "
+            "they are clockwise; negate them",
+        PreparationProblem::headings_clockwise, {name});
+  const bool silent = positions == Positions::silent;
   throw Error(
       name + fmt::format(
                  ": the ground truth turns right where the wheels say left: its axes are mirrored (a Y-up "
                  "export has x = Z, y = X), {}or the left and right wheels are exchanged",
-                 positions == Positions::silent ? "its headings are clockwise, " : ""),
-      PreparationProblem::mirrored);
+                 silent ? "its headings are clockwise, " : ""),
+      silent ? PreparationProblem::mirrored_or_clockwise : PreparationProblem::mirrored, {name});
 }
 
 }  // namespace
@@ -73,7 +76,7 @@ void require_handedness(const PreparedRun& run, const ClockFit& clock, const Whe
               "stayed: it has no orientation of the body, or the robot did not turn and an encoder or a "
               "motor is reversed",
               run.source->name, degrees(run.rotation_rad)),
-          PreparationProblem::heading_stays);
+          PreparationProblem::heading_stays, {run.source->name});
   }
   if (positions == Positions::oppose) refuse_opposite_turn(run.source->name, positions);
 }

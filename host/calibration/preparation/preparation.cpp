@@ -43,14 +43,17 @@ template <class Sample>
 void require_times(const std::string& name, const char* stream, const std::vector<Sample>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!std::isfinite(samples[i].time_s))
-      throw Error(fmt::format("{} has {} without a time: record it again", name, stream));
+      throw Error(fmt::format("{} has {} without a time: record it again", name, stream),
+                  PreparationProblem::times_missing, {name, stream});
     const double step_s = i > 0 ? samples[i].time_s - samples[i - 1].time_s : 0;
     if (step_s < 0)
-      throw Error(fmt::format("{} has {} whose times run backwards: record it again", name, stream));
+      throw Error(fmt::format("{} has {} whose times run backwards: record it again", name, stream),
+                  PreparationProblem::times_run_backwards, {name, stream});
     if (step_s > kLongestPause_s)
-      throw Error(fmt::format(
-          "{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was set; cut it there",
-          name, stream, step_s));
+      throw Error(fmt::format("{} has {} that jumps by {:.0f} s: two recordings in one, or a clock that was "
+                              "set; cut it there",
+                              name, stream, step_s),
+                  PreparationProblem::times_jump, {name, stream});
   }
 }
 
@@ -60,7 +63,8 @@ void require_wheels(const Trajectory& run) {
   for (std::size_t i = 0; i < run.wheels.size(); ++i) {
     const WheelSample& now = run.wheels[i];
     if (!std::isfinite(now.left_m) || !std::isfinite(now.right_m))
-      throw Error(run.name + " has odometry that is no number: record it again");
+      throw Error(run.name + " has odometry that is no number: record it again",
+                  PreparationProblem::odometry_not_finite, {run.name});
     if (i == 0) continue;
     const WheelSample& before = run.wheels[i - 1];
     const double moved_m =
@@ -69,19 +73,21 @@ void require_wheels(const Trajectory& run) {
       throw Error(
           fmt::format("{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m on an unknown "
                       "path: leave it out, or record it again",
-                      run.name, now.time_s - before.time_s, moved_m));
+                      run.name, now.time_s - before.time_s, moved_m),
+          PreparationProblem::odometry_lost, {run.name});
   }
 }
 
 void require_samples(const Trajectory& run) {
-  if (run.wheels.size() < 2) throw Error(run.name + " has no odometry: record it again");
+  if (run.wheels.size() < 2)
+    throw Error(run.name + " has no odometry: record it again", PreparationProblem::no_odometry, {run.name});
   const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
     return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
   });
   if (finite < kFewestSamples)
     throw Error(fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive",
                             run.name, finite),
-                PreparationProblem::too_little_truth);
+                PreparationProblem::too_little_truth, {run.name, std::to_string(finite)});
   require_wheels(run);
   require_times(run.name, "ground truth", run.truth);
 }
@@ -179,7 +185,8 @@ void require_motion(const PreparedRun& run) {
     throw Error(
         fmt::format("{} is too short: {:.2f} m and {:.0f} degrees under ground truth; drive at least a metre "
                     "or a turn, or leave it out",
-                    run.source->name, run.distance_m, degrees(run.rotation_rad)));
+                    run.source->name, run.distance_m, degrees(run.rotation_rad)),
+        PreparationProblem::too_short, {run.source->name});
 }
 
 /// `before`: the clock of a run before, of which the skew is taken if it fits.
@@ -209,9 +216,12 @@ bool is_blind_spin(const Trajectory& run, const ClockFit& clock, double wheelbas
 }
 
 Remark why_blind(const Trajectory& run) {
-  return {run.name +
+  return {
+      run.name +
           " turned on the spot under positions that stand still, which determine neither its clock "
-          "nor how far it turned: export the orientation of the body, too, or mount it away from the axis"};
+          "nor how far it turned: export the orientation of the body, too, or mount it away from the axis",
+      PreparationProblem::positions_stay,
+      {run.name}};
 }
 
 void require_clock(const Trajectory& run, const ClockFit& clock) {
@@ -219,18 +229,18 @@ void require_clock(const Trajectory& run, const ClockFit& clock) {
     throw Error(
         run.name +
             ": the motions of wheels and ground truth have nothing in common at any offset of their clocks",
-        PreparationProblem::nothing_in_common);
+        PreparationProblem::nothing_in_common, {run.name});
   if (clock.rival_offset_s && clock.correlation >= kLeastCorrelation)
     throw Error(fmt::format("{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s",
                             run.name, clock.offset_s, *clock.rival_offset_s),
-                PreparationProblem::clock_unsettled);
+                PreparationProblem::clock_unsettled, {run.name});
 }
 
 }  // namespace
 
 PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loaded, bool clock_known,
                      Density density) {
-  if (runs.empty()) throw Error("there are no runs to calibrate from");
+  if (runs.empty()) throw Error("there are no runs to calibrate from", PreparationProblem::no_runs);
   PreparedRuns prepared;
   std::optional<ClockFit> before;
   for (const Trajectory& run : runs) {

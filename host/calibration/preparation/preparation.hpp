@@ -12,11 +12,23 @@
 /// Prepares recorded runs for the filter, or says in one sentence why a run cannot be used.
 namespace astro::calibration {
 
-/// What keeps a run from being calibrated from.
+/// What keeps a run from being calibrated from. Values: its name, if there is one; then of times_missing,
+/// times_run_backwards and times_jump the stream, of too_little_truth the number of samples.
 enum class PreparationProblem {
+  no_runs,
+  no_odometry,
   too_little_truth,
+  times_missing,
+  times_run_backwards,
+  times_jump,
+  odometry_not_finite,
+  odometry_lost,
+  too_short,
   mirrored,
+  mirrored_or_clockwise,
+  headings_clockwise,
   heading_stays,
+  positions_stay,
   nothing_in_common,
   clock_unsettled
 };

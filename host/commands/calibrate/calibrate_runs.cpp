@@ -61,6 +61,8 @@ constexpr Advice kCalibrateRunsAdvice[] = {
     {calibration::LikelihoodProblem::wheel_turns_backwards,
      "; 'astrolabe check-wiring' finds crossed or reversed wires"},
     {calibration::PreparationProblem::mirrored, "; 'astrolabe check-wiring' finds crossed or reversed wires"},
+    {calibration::PreparationProblem::mirrored_or_clockwise,
+     "; 'astrolabe check-wiring' finds crossed or reversed wires"},
     {calibration::PreparationProblem::heading_stays,
      ": export the orientation, too, or see what 'astrolabe check-wiring' finds"},
     {experiment::AnalysisProblem::run_unusable,

@@ -34,13 +34,16 @@ constexpr const char* kWordRule =
     "has to be letters, digits and underscores, and must not begin with a digit";
 constexpr const char* kPathRule = "it has to begin with a /, and what is between two of them ";
 
-[[noreturn]] void refuse(std::string_view what, std::string_view text, const std::string& rule) {
-  throw Error(fmt::format("the {} is '{}': {}", what, text, rule));
+[[noreturn]] void refuse(std::string_view what, std::string_view text, const std::string& rule,
+                         NameProblem problem = NameProblem::malformed) {
+  throw Error(fmt::format("the {} is '{}': {}", what, text, rule), problem,
+              {std::string(what), std::string(text)});
 }
 
 void require_length(std::string_view what, std::string_view text, std::size_t longest) {
   if (text.size() > longest)
-    refuse(what, text, fmt::format("it must not have more than {} characters", longest));
+    refuse(what, text, fmt::format("it must not have more than {} characters", longest),
+           NameProblem::too_long);
 }
 
 std::string on_wire(std::string_view prefix, std::string_view name, std::string_view suffix) {

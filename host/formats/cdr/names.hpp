@@ -12,6 +12,10 @@ namespace astro::ros2 {
 
 inline constexpr std::size_t kLongestTopicName = 247, kLongestNamespace = 245, kLongestNodeName = 255;
 
+/// What is no name. Values: which name it is ("name", which a topic or a service has, "name of the node" or
+/// "namespace"), and the text.
+enum class NameProblem { malformed, too_long };
+
 struct NodeName {
   std::string name;              // one word: "robot"
   std::string name_space = "/";  // "/" or absolute: "/hall/left"

@@ -119,8 +119,8 @@ class BagReader {
       case BagFileKind::none:
         break;
     }
-    throw Error(part.name +
-                " is not a bag: it begins like no .db3, .mcap or .zstd file: name the right file");
+    throw Error(part.name + " is not a bag: it begins like no .db3, .mcap or .zstd file: name the right file",
+                BagProblem::not_a_bag, {part.name});
   }
 
   void read_database(const Part& part) {
@@ -189,7 +189,7 @@ class BagReader {
     const McapReport report = read_mcap(source, handlers, limits);
     report_.truncated = report_.truncated || report.truncated;
     report_.damaged = report_.damaged || report.damaged || !expanded || !known;
-    for (const std::string& warning : report.warnings) warn(part.name + ": " + warning);
+    for (const Remark& warning : report.warnings) warn(part.name + ": " + warning.sentence);
     if (!known) warn(part.name + ": more topics than this reader takes");
     if (!expanded) warn(part.name + ": a compressed message that does not expand");
   }

@@ -12,6 +12,19 @@
 /// from front to back in constant memory.
 namespace astro::bag {
 
+/// Why something is no bag or cannot become one. Values: the file or the folder; then of no_such_table and
+/// computed_columns the table, of too_many_files how many a bag may have.
+enum class BagProblem {
+  missing,
+  not_a_bag,
+  no_files,
+  too_many_files,
+  unreadable_database,
+  no_such_table,
+  computed_columns,
+  folder_not_empty
+};
+
 struct BagTopic {
   std::string name, type;  // "/tf", "tf2_msgs/msg/TFMessage"
   std::string encoding;    // of the messages: "cdr" for those of ROS 2

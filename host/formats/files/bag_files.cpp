@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/text/natural_order.hpp"
+#include "host/formats/files/bag.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/mcap_records.hpp"
 #include "host/formats/files/yaml_scalars.hpp"
@@ -29,7 +30,8 @@ std::vector<fs::path> parts_in(const fs::path& folder) {
     if (extension != ".db3" && extension != ".mcap" && extension != ".zstd") continue;
     if (files.size() >= kMostFiles)
       throw Error(folder.string() + " has more than " + std::to_string(kMostFiles) +
-                  " parts of a bag in it: name the right file");
+                      " parts of a bag in it: name the right file",
+                  BagProblem::too_many_files, {folder.string(), std::to_string(kMostFiles)});
     files.push_back(at->path());
   }
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
@@ -60,7 +62,9 @@ BagFiles named_in(const fs::path& metadata, const fs::path& folder) {
     if (!named.insert(name.string()).second) continue;  // a file is read once, however often it is named
     if (named.size() > kMostFiles)
       throw Error(metadata.string() + ", line " + std::to_string(scalar.line) + ": this is file " +
-                  std::to_string(named.size()) + " of the bag, more than any bag has: name the right file");
+                      std::to_string(named.size()) +
+                      " of the bag, more than any bag has: name the right file",
+                  BagProblem::too_many_files, {metadata.string(), std::to_string(kMostFiles)});
     const fs::path file = found(folder, name);
     if (!file.empty()) {
       out.files.push_back(file);
@@ -88,14 +92,16 @@ BagFileKind bag_file_kind(const fs::path& path) {
 
 BagFiles bag_files(const fs::path& path) {
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) throw Error("there is no " + path.string() + ": check the path");
+  if (!fs::exists(path, ignored))
+    throw Error("there is no " + path.string() + ": check the path", BagProblem::missing, {path.string()});
   if (!fs::is_directory(path, ignored)) return {{path}, {}};
   BagFiles files;
   const fs::path metadata = path / kMetadataFile;
   if (fs::is_regular_file(metadata, ignored)) files = named_in(metadata, path);
   if (files.files.empty()) files.files = parts_in(path);
   if (files.files.empty())
-    throw Error(path.string() + " has no part of a bag in it, no .db3 and no .mcap: name the right file");
+    throw Error(path.string() + " has no part of a bag in it, no .db3 and no .mcap: name the right file",
+                BagProblem::no_files, {path.string()});
   return files;
 }
 

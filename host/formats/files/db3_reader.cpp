@@ -75,7 +75,12 @@ class Db3Reader {
   using Entry = TopicTable::Entry;
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(file_.name + " " + what + ": name the right file");
+    throw Error(file_.name + " " + what + ": name the right file", BagProblem::unreadable_database,
+                {file_.name});
+  }
+  [[noreturn]] void refuse_table(BagProblem problem, const std::string& what,
+                                 const std::string& table) const {
+    throw Error(file_.name + " " + what + ": name the right file", problem, {file_.name, table});
   }
   std::string why() const { return sqlite3_errmsg(database_.get()); }
   void damage(const std::string& what) {
@@ -115,11 +120,13 @@ class Db3Reader {
       if (step == SQLITE_NOTADB || step == SQLITE_CANTOPEN) refuse("is not a database: " + why());
       if (step != SQLITE_ROW && step != SQLITE_DONE) refuse("cannot be read as a bag: " + why());
       if (step == SQLITE_DONE || found.integer(0) == 0)
-        refuse("is a database, but not a bag: it has no table '" + table + "'");
+        refuse_table(BagProblem::no_such_table,
+                     "is a database, but not a bag: it has no table '" + table + "'", table);
       Statement computed(database_.get(),
                          "SELECT count(*) FROM pragma_table_xinfo('" + table + "') WHERE hidden <> 0");
       if (computed.step() != SQLITE_ROW || computed.integer(0) != 0)
-        refuse("is not a bag: its table '" + table + "' has computed columns");
+        refuse_table(BagProblem::computed_columns,
+                     "is not a bag: its table '" + table + "' has computed columns", table);
     }
   }
 

@@ -61,8 +61,8 @@ class Db3Writer::Impl {
     fs::create_directories(folder_, error);
     if (error) throw Error("cannot make the folder " + folder_.string() + ": " + error.message());
     if (!fs::is_empty(folder_, error))
-      throw Error(folder_.string() +
-                  " is not empty, and a bag is a folder of its own: choose another folder");
+      throw Error(folder_.string() + " is not empty, and a bag is a folder of its own: choose another folder",
+                  BagProblem::folder_not_empty, {folder_.string()});
     file_ = folder_ / (folder_.filename().string() + "_0.db3");
     part_ = file_.string() + ".part";
     sqlite3* raw = nullptr;

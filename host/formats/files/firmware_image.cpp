@@ -30,7 +30,7 @@ constexpr std::uintmax_t kMostHexBytes = std::uintmax_t{16} << 20;
 constexpr std::size_t kLongestRecord = 1 + 2 * (5 + 255);
 
 /// The bytes of a record without its colon, its sum checked.
-std::vector<std::uint8_t> record(const std::string& line, const std::string& where) {
+std::vector<std::uint8_t> record(const std::string& line, const std::string& file, int number) {
   std::vector<std::uint8_t> bytes;
   const auto digit = [&](std::size_t i) {
     return i < line.size() && std::isxdigit(static_cast<unsigned char>(line[i])) != 0;
@@ -41,7 +41,8 @@ std::vector<std::uint8_t> record(const std::string& line, const std::string& whe
   for (const std::uint8_t byte : bytes) sum += byte;
   if (line[0] != ':' || bytes.size() < 5 || bytes.size() != bytes[0] + 5U || sum % 256 != 0 ||
       (bytes[3] == kUpperHalf && bytes[0] != 2))
-    throw Error(where + " is no Intel HEX record: build the image again");
+    throw Error(fmt::format("{}:{} is no Intel HEX record: build the image again", file, number),
+                ImageProblem::not_intel_hex, {file, std::to_string(number)});
   return bytes;
 }
 
@@ -73,10 +74,11 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
       std::filesystem::is_regular_file(hex, missing);  // to open a pipe would wait for its writer
   std::ifstream file;
   if (regular) file.open(hex);
-  if (!regular || !file) throw Error(fmt::format("cannot read '{}'", hex.string()), ImageProblem::unreadable);
+  if (!regular || !file)
+    throw Error(fmt::format("cannot read '{}'", hex.string()), ImageProblem::unreadable, {hex.string()});
   if (std::filesystem::file_size(hex, missing) > kMostHexBytes)
     throw Error(fmt::format("'{}' is larger than any image for a Teensy 4.0", hex.string()),
-                ImageProblem::too_large);
+                ImageProblem::too_large, {hex.string()});
   FirmwareImage image{std::vector<std::uint8_t>(FirmwareImage::kBytes, 0xFF), "", ""};
   std::uint32_t upper = 0;
   int number = 0;
@@ -84,7 +86,7 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
   for (std::string line; !ended && std::getline(file, line);) {
     const std::string where = fmt::format("{}:{}", hex.string(), ++number);
     if (line.empty()) continue;
-    const std::vector<std::uint8_t> bytes = record(line, where);
+    const std::vector<std::uint8_t> bytes = record(line, hex.string(), number);
     ended = bytes[3] == kEnd;
     if (bytes[3] == kUpperHalf) upper = static_cast<std::uint32_t>(bytes[4] << 8U | bytes[5]) << 16U;
     if (bytes[3] == kStartSegment || bytes[3] == kStart || bytes[3] == kUpperHalf || ended) continue;
@@ -98,7 +100,8 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
   if (!ended) throw Error(fmt::format("'{}' has no end: build the image again", hex.string()));
   if (word(image.flash, kConfigurationAt) != kConfigurationTag ||
       word(image.flash, kVectorTableAt) != kVectorTableTag || word(image.flash, kFlashBytesAt) != kFlashBytes)
-    throw Error(fmt::format("'{}' is no image for a Teensy 4.0", hex.string()), ImageProblem::of_other_board);
+    throw Error(fmt::format("'{}' is no image for a Teensy 4.0", hex.string()), ImageProblem::of_other_board,
+                {hex.string()});
   image.version = version_in(image.flash);
   if (!image.version.empty()) image.board = board_in(image.flash);
   return image;

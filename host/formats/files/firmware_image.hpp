@@ -7,8 +7,8 @@
 
 namespace astro {
 
-/// What is no image for this board.
-enum class ImageProblem { unreadable, too_large, of_other_board };
+/// What is no image for this board. Values: the file; of not_intel_hex also the line.
+enum class ImageProblem { unreadable, too_large, of_other_board, not_intel_hex };
 
 /// What flashing a file writes into a Teensy 4.0.
 struct FirmwareImage {

@@ -130,27 +130,36 @@ class Walker {
  private:
   std::uint64_t most_bytes() const { return std::max(limits_.chunk_bytes, file_bytes_); }
 
-  void warn(const std::string& what) {
-    if (report_.warnings.size() < kMaxWarnings) report_.warnings.push_back(what);
+  void warn(Remark what) {
+    if (report_.warnings.size() < kMaxWarnings) report_.warnings.push_back(std::move(what));
   }
   void cut_off(const std::string& what) {
     report_.truncated = true;
-    warn(what);
+    warn({what, McapProblem::cut_off, {std::to_string(file_.size())}});
   }
-  void damage(const std::string& what, std::uint64_t at) {
+  void damage(McapProblem problem, const std::string& what, std::uint64_t at) {
     report_.damaged = true;
-    warn(what + " at byte " + std::to_string(at));
+    warn({what + " at byte " + std::to_string(at), problem, {std::to_string(at)}});
+  }
+  /// A record that cannot be decoded; `what`: "schema".
+  void bad_record(const std::string& what, std::uint64_t at) {
+    report_.damaged = true;
+    warn({"bad " + what + " at byte " + std::to_string(at),
+          McapProblem::bad_record,
+          {std::to_string(at), what}});
   }
 
   /// A file with an intact end was not cut off: something before it is wrong, such as a length.
   void no_footer(std::uint64_t at) {
     if (file_.size() >= 2 * kMagicBytes && is_magic(file_.read(file_.size() - kMagicBytes, kMagicBytes)))
-      return damage("a record that does not fit into the file", at);
+      return damage(McapProblem::record_beyond_end, "a record that does not fit into the file", at);
     cut_off("the file ends at byte " + std::to_string(file_.size()) + " without a footer");
   }
 
   void take(const Record& record) {
-    if (record.is_too_large) return damage("a record of more bytes than this reader takes", record.start);
+    if (record.is_too_large)
+      return damage(McapProblem::record_too_large, "a record of more bytes than this reader takes",
+                    record.start);
     switch (static_cast<Op>(record.op)) {
       case Op::header:
         return header(record);
@@ -183,20 +192,20 @@ class Walker {
 
   void header(const Record& record) {
     const auto header = bag::mcap::decode_header(record.content);
-    if (!header) return damage("bad header", record.start);
+    if (!header) return bad_record("header", record.start);
     report_.profile = header->profile;
     report_.library = header->library;
   }
 
   void schema(const Record& record, std::uint64_t at) {
     auto schema = bag::mcap::decode_schema(record.content);
-    if (!schema) return damage("bad schema", at);
+    if (!schema) return bad_record("schema", at);
     keep(schemas_, std::move(*schema), at);
   }
 
   void channel(const Record& record, std::uint64_t at) {
     auto channel = bag::mcap::decode_channel(record.content);
-    if (!channel) return damage("bad channel", at);
+    if (!channel) return bad_record("channel", at);
     keep(channels_, std::move(*channel), at);
   }
 
@@ -217,7 +226,8 @@ class Walker {
     const std::uint64_t freed = before == all.end() ? 0 : memory_of(before->second);
     const std::uint64_t bytes = definition_bytes_ - freed + memory_of(definition);
     if (bytes > limits_.definition_bytes + file_bytes_)
-      return damage("more schemas and channels than this reader takes,", at);
+      return damage(McapProblem::too_many_definitions, "more schemas and channels than this reader takes,",
+                    at);
     definition_bytes_ = bytes;
     all.insert_or_assign(definition.id, std::move(definition));
   }
@@ -225,41 +235,45 @@ class Walker {
   void message(const Record& record, std::uint64_t at) {
     if (!handlers_.message) return;
     const auto message = bag::mcap::decode_message(record.content);
-    if (!message) return damage("bad message", at);
+    if (!message) return bad_record("message", at);
     const auto channel = channels_.find(message->channel_id);
-    if (channel == channels_.end()) return damage("message of an unknown channel", at);
+    if (channel == channels_.end())
+      return damage(McapProblem::unknown_channel, "message of an unknown channel", at);
     const auto schema = schemas_.find(channel->second.schema_id);
     handlers_.message(channel->second, schema == schemas_.end() ? nullptr : &schema->second, *message);
   }
 
   void metadata(const Record& record) {
     const auto metadata = bag::mcap::decode_metadata(record.content);
-    if (!metadata) return damage("bad metadata", record.start);
+    if (!metadata) return bad_record("metadata", record.start);
     if (handlers_.metadata) handlers_.metadata(*metadata);
   }
 
   void chunk(const Record& record) {
     const auto chunk = bag::mcap::decode_chunk(record.content);
-    if (!chunk) return damage("bad chunk", record.start);
+    if (!chunk) return bad_record("chunk", record.start);
     if (!handlers_.message) return;
     if (chunk->size > most_bytes()) {
-      return damage("chunk of " + std::to_string(chunk->size) + " bytes, more than this reader takes,",
+      return damage(McapProblem::chunk_too_large,
+                    "chunk of " + std::to_string(chunk->size) + " bytes, more than this reader takes,",
                     record.start);
     }
     expanded_bytes_ += chunk->size;
     if (expanded_bytes_ > limits_.all_chunks_bytes + limits_.most_gain * file_bytes_)
       return damage(
+          McapProblem::chunks_expand_too_far,
           "chunks that expand to more than " + std::to_string(limits_.most_gain) + " times the file,",
           record.start);
     const auto bytes = expand(chunk->compression, chunk->records, chunk->size);
-    if (!bytes) return damage("chunk that does not expand", record.start);
+    if (!bytes) return damage(McapProblem::chunk_does_not_expand, "chunk that does not expand", record.start);
     if (chunk->crc != 0 && chunk->crc != crc32_ieee(*bytes)) {
-      return damage("chunk with a wrong checksum", record.start);
+      return damage(McapProblem::wrong_chunk_checksum, "chunk with a wrong checksum", record.start);
     }
     ByteCursor cursor(*bytes);
     while (cursor.left() > 0) {
       Record inner;
-      if (!next_inside(cursor, inner)) return damage("chunk that ends inside a record", record.start);
+      if (!next_inside(cursor, inner))
+        return damage(McapProblem::chunk_ends_inside_record, "chunk that ends inside a record", record.start);
       take_content(inner, record.start);
     }
   }
@@ -268,29 +282,29 @@ class Walker {
     data_end_seen_ = true;
     ByteCursor cursor(record.content);
     const auto crc = cursor.number<std::uint32_t>();
-    if (!cursor.ok()) return damage("bad end of data", record.start);
+    if (!cursor.ok()) return bad_record("end of data", record.start);
     if (crc != 0 && crc != records_.crc_before_record()) {
-      damage("the data have a wrong checksum: found", record.start);
+      damage(McapProblem::wrong_data_checksum, "the data have a wrong checksum: found", record.start);
     }
   }
 
   void footer(const Record& record) {
     footer_seen_ = true;
     const auto footer = bag::mcap::decode_footer(record.content);
-    if (!footer || footer->summary_start > record.start) return damage("bad footer", record.start);
+    if (!footer || footer->summary_start > record.start) return bad_record("footer", record.start);
     if (footer->summary_crc == 0) return;
     constexpr std::size_t kCovered = bag::mcap::kRecordHeadBytes + 2 * sizeof(std::uint64_t);
     const std::uint64_t start = footer->summary_start == 0 ? record.start : footer->summary_start;
     if (footer->summary_crc != records_.crc_of(start, record.start + kCovered))
-      damage("the summary has a wrong checksum: found", record.start);
+      damage(McapProblem::wrong_summary_checksum, "the summary has a wrong checksum: found", record.start);
   }
 
   void check_end() {
     const std::uint64_t at = records_.at();
-    if (!data_end_seen_) damage("no end of data before the footer", at);
+    if (!data_end_seen_) damage(McapProblem::no_data_end, "no end of data before the footer", at);
     if (file_.size() - at < kMagicBytes) return cut_off("the file ends inside its last 8 bytes");
     if (file_.size() - at > kMagicBytes || !is_magic(file_.read(at, kMagicBytes)))
-      damage("the file does not end like an MCAP file", at);
+      damage(McapProblem::no_end_mark, "the file does not end like an MCAP file", at);
   }
 
   ByteSource& file_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/base/byte_source.hpp"
+#include "host/base/error.hpp"
 #include "host/formats/files/mcap_records.hpp"
 
 namespace astro::bag {
@@ -34,6 +35,25 @@ struct McapLimits {
   std::uint64_t definition_bytes = std::uint64_t{16} << 20;
 };
 
+/// What is wrong with an MCAP file. Values: the position in the file; of bad_record also what it should be.
+enum class McapProblem {
+  cut_off,
+  record_beyond_end,
+  record_too_large,
+  bad_record,
+  unknown_channel,
+  too_many_definitions,
+  chunk_too_large,
+  chunks_expand_too_far,
+  chunk_does_not_expand,
+  chunk_ends_inside_record,
+  wrong_chunk_checksum,
+  wrong_data_checksum,
+  wrong_summary_checksum,
+  no_data_end,
+  no_end_mark
+};
+
 /// The result of reading.
 struct McapReport {
   bool is_mcap = false;    // false: the file does not begin like one; nothing else was looked at
@@ -42,7 +62,7 @@ struct McapReport {
   // wrong, everything after it. A file with an intact end is damaged, never truncated.
   bool damaged = false;
   std::string profile, library;
-  std::vector<std::string> warnings;  // the first few reasons for the two, with positions in the file
+  std::vector<Remark> warnings;  // the first few reasons for the two, of McapProblem
 };
 
 /// Reads an MCAP file from front to back. Needs no index, so that the file of a recorder that was killed can

@@ -52,16 +52,17 @@ class Walker {
   std::vector<YamlScalar> walk() {
     while (true) {
       const yaml_event_t* event = parser_.next();
-      if (event == nullptr) refuse(parser_.line(), "this is not YAML: " + parser_.problem());
+      if (event == nullptr)
+        refuse(YamlProblem::not_yaml, parser_.line(), "this is not YAML: " + parser_.problem());
       if (event->type == YAML_STREAM_END_EVENT) return std::move(found_);
       take(*event);
     }
   }
 
  private:
-  [[noreturn]] void refuse(int line, const std::string& what) const {
-    throw Error(std::string(name_) + ", line " + std::to_string(line) + ": " + what +
-                ": name the right file");
+  [[noreturn]] void refuse(YamlProblem problem, int line, const std::string& what) const {
+    throw Error(std::string(name_) + ", line " + std::to_string(line) + ": " + what + ": name the right file",
+                problem, {std::string(name_), std::to_string(line)});
   }
 
   void take(const yaml_event_t& event) {
@@ -105,7 +106,8 @@ class Walker {
 
   void open(bool is_map, int line) {
     begin_node("?");  // a map or list may be a key, too
-    if (levels_.size() >= kMostLevels) refuse(line, "this nests deeper than any file of parameters");
+    if (levels_.size() >= kMostLevels)
+      refuse(YamlProblem::nested_too_deep, line, "this nests deeper than any file of parameters");
     levels_.push_back({is_map, true, 0, path_.size()});
   }
 
@@ -114,7 +116,8 @@ class Walker {
     begin_node(value);
     if (!is_key) {
       bytes_ += sizeof(YamlScalar) + path_.size() + value.size();
-      if (bytes_ > kMostBytes) refuse(line, "this file has more values than any file of parameters");
+      if (bytes_ > kMostBytes)
+        refuse(YamlProblem::too_many_values, line, "this file has more values than any file of parameters");
       found_.push_back({path_, std::string(value), line, quoted});
     }
     end_node();

@@ -6,6 +6,9 @@
 
 namespace astro::bag {
 
+/// Why text is not read as YAML. Values: its name and the line.
+enum class YamlProblem { not_yaml, nested_too_deep, too_many_values };
+
 /// A value in a YAML file and the keys that lead to it: "controller/ros__parameters/wheel_radius". The entries of a
 /// list are numbered from 0: "left_wheel_names/0".
 struct YamlScalar {

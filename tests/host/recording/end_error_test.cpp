@@ -5,23 +5,19 @@
 #include <limits>
 #include <numbers>
 
-#include "host/base/error.hpp"
 #include "tests/host/recording/support.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::recording {
 namespace {
 
+using astro::support::ThrowsTelling;
 using std::numbers::pi;
-using support::complaint;
 using support::Drive;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 constexpr double kRounding = 1e-12;  // poses of some metres in double, a few operations
 
-std::string complaint_about(const recording::Run& run) {
-  return complaint([&] { end_error(run); });
-}
+constexpr const char* kRun = "run square cw 3 (before)";
 
 TEST(EndError, IsAbsoluteMinusOdometrySeenFromTheStart) {
   Drive drive;
@@ -108,34 +104,35 @@ TEST(EndError, OneSampleAtEachEndIsEnoughAsFromATapeMeasure) {
   EXPECT_TRUE(std::isnan(error.theta_rad)) << "no heading was measured";
 }
 
-TEST(EndError, ComplaintsNameTheRunAndTheEnd) {
+TEST(EndError, RefusalsNameTheRunAndTheEnd) {
   const recording::Run good = Drive{}.run();
   recording::Run run = good;
   for (TruthSample& sample : run.truth) sample.valid = sample.time_us < 7'000'000;
-  EXPECT_THAT(complaint_about(run),
-              AllOf(HasSubstr("run square cw 3 (before)"), HasSubstr("ground truth"), HasSubstr("its end")));
+  const auto end = [&] { end_error(run); };
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::no_truth, kRun, "end"));
   run = good;
   for (TruthSample& sample : run.truth) sample.valid = sample.time_us > 7'000'000;
-  EXPECT_THAT(complaint_about(run), AllOf(HasSubstr("ground truth"), HasSubstr("its start")));
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::no_truth, kRun, "start"));
   run = good;
   for (TruthSample& sample : run.truth) sample.theta_rad = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(complaint_about(run), HasSubstr("no heading"));
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::no_heading, kRun));
   run.truth.clear();
-  EXPECT_THAT(complaint_about(run), HasSubstr("ground truth"));
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::no_truth, kRun, "start"));
   run.odometry.clear();
-  EXPECT_THAT(complaint_about(run), HasSubstr("no odometry"));
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::no_odometry, kRun));
 }
 
 TEST(EndError, StandstillIsRequiredAtBothEnds) {
   recording::Run run = Drive{}.run();
+  const auto end = [&] { end_error(run); };
   run.odometry.erase(run.odometry.begin(), run.odometry.begin() + 45);
-  EXPECT_THAT(complaint_about(run), AllOf(HasSubstr("stand still"), HasSubstr("its start")));
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::no_rest, kRun, "start"));
   run = Drive{}.run();
   run.odometry.resize(run.odometry.size() - 45);
-  EXPECT_THAT(complaint_about(run), AllOf(HasSubstr("stand still"), HasSubstr("its end")));
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::no_rest, kRun, "end"));
   run = Drive{}.run();
   for (OdometrySample& sample : run.odometry) sample.left_counts = sample.right_counts = 5;
-  EXPECT_THAT(complaint_about(run), HasSubstr("never moves"));
+  EXPECT_THAT(end, ThrowsTelling(EndProblem::never_moves, kRun));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "host/base/error.hpp"
 #include "host/formats/files/bag.hpp"
 #include "host/formats/files/yaml_scalars.hpp"
 #include "host/formats/messages/text_message.hpp"
@@ -10,6 +9,7 @@
 #include "host/import/wheels/pose_topics.hpp"
 #include "host/recording/robot_messages.hpp"
 #include "tests/host/formats/files/made_bags.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::recording {
@@ -112,12 +112,8 @@ TEST(RosbagExport, ARunWithoutSizesHasNoDescription) {
 
 TEST(RosbagExport, ABagNeverGoesIntoAFolderThatHoldsSomething) {
   const Exported exported;
-  try {
-    export_rosbag(driven(), exported.bag);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("is not empty"));
-  }
+  EXPECT_THAT([&] { export_rosbag(driven(), exported.bag); },
+              astro::support::ThrowsTelling(bag::BagProblem::folder_not_empty, exported.bag.string()));
 }
 
 // The command sqlite3 shares no code with our SQL.

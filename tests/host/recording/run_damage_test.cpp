@@ -1,17 +1,18 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/formats/files/mcap_reader.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/recording/run_writer.hpp"
 #include "tests/host/recording/support.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::recording {
 namespace {
 
-using support::complaint;
+using astro::support::told_by;
 using support::TempFolder;
+using ::testing::Not;
 
 /// A small run in many chunks: every odometry sample closes one.
 Run small_run() {
@@ -38,7 +39,7 @@ TEST(DamagedRun, CutAtEveryByteItIsRefusedOrGivesAPrefixWithAWarning) {
   std::size_t kept = 0;
   for (std::size_t size = 0; size < file.size(); ++size) {
     recording::Run cut;
-    if (!complaint([&] { cut = run_from_bytes(ByteView(file).first(size), "cut.mcap"); }).empty()) {
+    if (!told_by([&] { cut = run_from_bytes(ByteView(file).first(size), "cut.mcap"); }).sentence.empty()) {
       EXPECT_EQ(kept, 0U) << "once the run record stands in the file it reads, at " << size;
       continue;
     }
@@ -61,11 +62,11 @@ TEST(DamagedRun, AFlippedBitIsNeverReadSilently) {
     const auto flip = static_cast<std::uint8_t>(1 << (at % 8));
     file[at] ^= flip;
     recording::Run run;
-    const std::string error = complaint([&] { run = run_from_bytes(file, "flipped.mcap"); });
+    const Remark error = told_by([&] { run = run_from_bytes(file, "flipped.mcap"); });
     file[at] ^= flip;
-    EXPECT_TRUE(!error.empty() || !run.warning.empty()) << "byte " << at;
-    if (!error.empty()) {
-      EXPECT_NE(error.find("flipped.mcap"), std::string::npos) << error;
+    EXPECT_TRUE(!error.sentence.empty() || !run.warning.empty()) << "byte " << at;
+    if (!error.sentence.empty()) {
+      EXPECT_THAT(error.values, testing::Contains("flipped.mcap")) << "byte " << at;
     }
   }
 }
@@ -78,9 +79,11 @@ TEST(DamagedRun, WhoseEndIsThereIsCalledDamagedAndNeverCutOff) {
     for (const std::uint8_t flip : {std::uint8_t{0x01}, std::uint8_t{0x80}}) {
       Bytes bad = file;
       bad[at] ^= flip;
-      const std::string error = complaint([&] { run_from_bytes(bad, "flipped.mcap"); });
-      EXPECT_THAT(error, testing::HasSubstr("flipped.mcap is")) << "byte " << at;
-      EXPECT_THAT(error, testing::Not(testing::HasSubstr("cut off"))) << "byte " << at;
+      EXPECT_THAT([&] { run_from_bytes(bad, "flipped.mcap"); },
+                  testing::Throws<DamagedRecording>(
+                      testing::AllOf(testing::Property(&Error::kind, Not(Kind(bag::McapProblem::cut_off))),
+                                     testing::Property(&Error::values, testing::Contains("flipped.mcap")))))
+          << "byte " << at;
     }
 }
 

@@ -11,11 +11,10 @@
 namespace astro::recording {
 namespace {
 
-using support::complaint;
+using astro::support::ThrowsTelling;
 using support::TempFolder;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 Run numbered(int index) {
   recording::Run run;
@@ -64,14 +63,15 @@ TEST(RunFolder, NaturalOrderIsAStrictOrder) {
   EXPECT_NE(natural_less("a/1", "a/01"), natural_less("a/01", "a/1"));
 }
 
-TEST(RunFolder, ComplaintsNameTheFolderAndTheRemedy) {
+TEST(RunFolder, ErrorsNameTheFolderOrTheFile) {
   const TempFolder folder;
-  EXPECT_THAT(astro::support::told_by([&] { list_runs(folder / "none"); }),
-              astro::support::Tells(HasSubstr("none does not exist"), Help::name_folder_of_runs));
-  EXPECT_THAT(astro::support::told_by([&] { read_runs(folder.path()); }),
-              astro::support::Tells(HasSubstr(folder.path().string()), Help::record_runs));
+  EXPECT_THAT([&] { list_runs(folder / "none"); },
+              ThrowsTelling(RecordingProblem::folder_missing, (folder / "none").string()));
+  EXPECT_THAT([&] { read_runs(folder.path()); },
+              ThrowsTelling(RecordingProblem::none_in_folder, folder.path().string()));
   support::spill(folder / "x/bad.mcap", as_bytes("nonsense"));
-  EXPECT_THAT(complaint([&] { read_runs(folder.path()); }), HasSubstr("bad.mcap"));
+  EXPECT_THAT([&] { read_runs(folder.path()); },
+              ThrowsTelling(RecordingProblem::not_mcap, (folder / "x/bad.mcap").string()));
 }
 
 }  // namespace

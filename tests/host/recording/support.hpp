@@ -45,17 +45,6 @@ inline void spill(const std::filesystem::path& path, ByteView bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The message of the exception that the call throws; "" if it does not throw.
-template <class Call>
-std::string complaint(Call&& call) {
-  try {
-    call();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 /// A drive of 3 s at 100 Hz: `rest_s` of standstill, then from the start to `odometry_end` (as odometry sees
 /// it) and `truth_end` (as it is), both seen from the start, then standstill again.
 struct Drive {

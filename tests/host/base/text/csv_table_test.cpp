@@ -5,29 +5,30 @@
 #include <string>
 
 #include "tests/support/base/bounded.hpp"
+#include "tests/support/base/remarks.hpp"
 
 // Implausible tables are refused with the line number, without holding the whole table in memory.
 namespace astro {
 namespace {
 
-using testing::HasSubstr;
-
-void expect_refused(const std::string& text, const std::string& reason) {
-  const support::Taken taken = support::measured([&] { split_csv(text, "t.csv"); });
+template <class Line>
+void expect_refused(const std::string& text, CsvProblem problem, Line line) {
+  const support::Taken taken = support::measured([&] {
+    EXPECT_THAT([&] { split_csv(text, "t.csv"); }, support::ThrowsTelling(problem, "t.csv", line));
+  });
   EXPECT_BOUNDED(taken, text.size());
-  EXPECT_THAT(taken.complaint, HasSubstr("t.csv, line "));
-  EXPECT_THAT(taken.complaint, HasSubstr(reason));
 }
 
 TEST(CsvTable, RefusesALineOfFiftyMegabytesOfCommas) {
-  expect_refused(std::string(50'000'000, ','), "more than 1000 cells");
-  expect_refused("x_m,y_m\n" + std::string(50'000'000, ','), "more than 1000 cells");
+  expect_refused(std::string(50'000'000, ','), CsvProblem::too_many_columns, "1");
+  expect_refused("x_m,y_m\n" + std::string(50'000'000, ','), CsvProblem::too_many_columns, "2");
 }
 
 TEST(CsvTable, RefusesMoreShortRowsThanItCanHold) {
-  expect_refused("x,y\n" + support::filled("0,0\n", 50'000'000), "more cells than can be held");
+  const auto later_line = testing::Not(testing::AnyOf("1", "2"));
+  expect_refused("x,y\n" + support::filled("0,0\n", 50'000'000), CsvProblem::too_many_cells, later_line);
   expect_refused(std::string(998, ',') + "x\n" + support::filled(std::string(998, ',') + "1\n", 50'000'000),
-                 "more cells than can be held");
+                 CsvProblem::too_many_cells, later_line);
 }
 
 TEST(CsvTable, TakesATruthFileOfAnHour) {

@@ -1,25 +1,22 @@
 #include "host/calibration/end_poses/end_pose_csv.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "tests/host/calibration/end_poses/square_runs.hpp"
+#include "host/base/text/csv_table.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {
 namespace {
 
+using Problem = EndPoseTableProblem;
 using support::Tells;
-
-using test::error_of;
 
 Remark told(std::string_view text) {
   return support::told_by([&] { (void)read_end_poses(text, "cw.csv"); });
 }
-
-std::string refusal(std::string_view text) { return told(text).sentence; }
 
 TEST(EndPoseCsv, ReadsTheFormOfTheThesisTables) {
   const auto runs = read_end_poses(
@@ -67,76 +64,65 @@ TEST(EndPoseCsv, SpreadsheetHabitsDoNotMatter) {
 }
 
 TEST(EndPoseCsv, AFileWithoutRunsIsRefused) {
-  const std::string empty =
-      "cw.csv is empty: it needs a header such as ex_mm,ey_mm,etheta_rad and a row per run";
-  EXPECT_EQ(refusal(""), empty);
-  EXPECT_EQ(refusal("\xEF\xBB\xBF\r\n \r\n"), empty);
-  EXPECT_EQ(refusal("ex_mm,ey_mm\n"), "cw.csv has a header and no data rows: it needs one per run below it");
+  EXPECT_THAT(told(""), Tells(CsvProblem::empty, "cw.csv"));
+  EXPECT_THAT(told("\xEF\xBB\xBF\r\n \r\n"), Tells(CsvProblem::empty, "cw.csv"));
+  EXPECT_THAT(told("ex_mm,ey_mm\n"), Tells(Problem::no_rows, "cw.csv"));
 }
 
 TEST(EndPoseCsv, AColumnWithoutAUnitIsRefused) {
-  EXPECT_EQ(refusal("ex,ey_mm\n1,2\n"),
-            "cw.csv, line 1: column ex does not say its unit, as ex_mm or ex_cm or ex_m does");
-  EXPECT_EQ(refusal("ex_inch,ey_mm\n1,2\n").find("cw.csv, line 1: column ex_inch does not say its unit"), 0U);
-  EXPECT_EQ(refusal("ex_mm,ey [mm]\n1,2\n").find("cw.csv, line 1: column ey [mm] does not say its unit"), 0U);
-  EXPECT_EQ(refusal("ex_mm,ey_mm,etheta\n1,2,3\n"),
-            "cw.csv, line 1: column etheta does not say its unit, as etheta_rad or etheta_deg does");
+  EXPECT_THAT(told("ex,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex"));
+  EXPECT_THAT(told("ex_inch,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex_inch"));
+  EXPECT_THAT(told("ex_mm,ey [mm]\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ey [mm]"));
+  EXPECT_THAT(told("ex_mm,ey_mm,etheta\n1,2,3\n"), Tells(Problem::no_unit, "cw.csv", "1", "etheta"));
 }
 
 TEST(EndPoseCsv, AMissingOrDoubledColumnIsRefused) {
-  EXPECT_EQ(refusal("\nrun,ey_mm\n1,2\n"), "cw.csv, line 2: there is no column ex_mm or ex_cm or ex_m");
-  EXPECT_EQ(refusal("ex_mm,etheta_rad\n1,2\n"), "cw.csv, line 1: there is no column ey_mm or ey_cm or ey_m");
-  EXPECT_EQ(refusal("1,2\n3,4\n"), "cw.csv, line 1: there is no column ex_mm or ex_cm or ex_m");
-  EXPECT_THAT(told("ex_mm,ex_m,ey_m\n1,2,3\n"),
-              Tells("cw.csv, line 1: columns ex_mm and ex_m both give ex", Help::keep_one_column));
+  EXPECT_THAT(told("\nrun,ey_mm\n1,2\n"), Tells(Problem::no_column, "cw.csv", "2", "ex"));
+  EXPECT_THAT(told("ex_mm,etheta_rad\n1,2\n"), Tells(Problem::no_column, "cw.csv", "1", "ey"));
+  EXPECT_THAT(told("1,2\n3,4\n"), Tells(Problem::no_column, "cw.csv", "1", "ex"));
+  EXPECT_THAT(told("ex_mm,ex_m,ey_m\n1,2,3\n"), Tells(Problem::two_columns, "cw.csv", "1", "ex_mm", "ex_m"));
 }
 
 TEST(EndPoseCsv, ACellThatIsNoNumberIsNamedWithLineAndColumn) {
-  EXPECT_EQ(refusal("ex_mm,ey_mm\n1,2\n\n3,four\n"),
-            "cw.csv, line 4: column ey_mm: \"four\" is not a number such as -12.5");
+  EXPECT_THAT(told("ex_mm,ey_mm\n1,2\n\n3,four\n"),
+              Tells(Problem::not_a_number, "cw.csv", "4", "ey_mm", "four"));
   for (const std::string cell : {"1.5mm", "0x10", "1 2", "--1", "+-1", "+", "-", "1e", "."}) {
-    EXPECT_EQ(refusal("ex_mm,ey_mm\n" + cell + ",2\n"),
-              "cw.csv, line 2: column ex_mm: \"" + cell + "\" is not a number such as -12.5");
+    EXPECT_THAT(told("ex_mm,ey_mm\n" + cell + ",2\n"),
+                Tells(Problem::not_a_number, "cw.csv", "2", "ex_mm", cell));
   }
-  EXPECT_THAT(told("ex_mm,ey_mm\n1,\n"),
-              Tells("cw.csv, line 2: column ey_mm: the cell is empty", Help::fill_cell_or_leave_out));
+  EXPECT_THAT(told("ex_mm,ey_mm\n1,\n"), Tells(Problem::empty_cell, "cw.csv", "2", "ey_mm"));
 }
 
 TEST(EndPoseCsv, ACellThatIsNotFiniteIsRefused) {
   for (const std::string cell : {"nan", "NaN", "inf", "-inf", "Infinity", "1e999"}) {
     EXPECT_THAT(told("ex_mm,ey_mm,etheta_deg\n1,2," + cell + "\n"),
-                Tells("cw.csv, line 2: column etheta_deg: \"" + cell + "\" is not a finite number",
-                      Help::measure_again_or_leave_out));
+                Tells(Problem::not_finite, "cw.csv", "2", "etheta_deg", cell));
   }
 }
 
 TEST(EndPoseCsv, ARowOfTheWrongWidthIsRefused) {
-  EXPECT_THAT(told("ex_mm,ey_mm\n1,2\n3\n"),
-              Tells("cw.csv, line 3: the row has 1 cells and the header 2", Help::fill_each_cell));
+  EXPECT_THAT(told("ex_mm,ey_mm\n1,2\n3\n"), Tells(CsvProblem::row_of_other_length, "cw.csv", "3", "1", "2"));
   EXPECT_THAT(told("ex_mm,ey_mm\n1,5,2,5\n"),
-              Tells("cw.csv, line 2: the row has 4 cells and the header 2", Help::fill_each_cell));
+              Tells(CsvProblem::row_of_other_length, "cw.csv", "2", "4", "2"));
 }
 
 TEST(EndPoseCsv, WhatIsNoCommaSeparatedTextIsRefused) {
-  EXPECT_THAT(told("ex_mm;ey_mm\n1,5;2,5\n"),
-              Tells("cw.csv, line 1: the cells are separated by semicolons", Help::separate_by_commas));
-  EXPECT_EQ(refusal("ex_mm,ey_mm\n\"1,2\n"), "cw.csv, line 2: a quote is opened and not closed on its line");
+  EXPECT_THAT(told("ex_mm;ey_mm\n1,5;2,5\n"), Tells(CsvProblem::semicolons, "cw.csv", "1"));
+  EXPECT_THAT(told("ex_mm,ey_mm\n\"1,2\n"), Tells(CsvProblem::open_quote, "cw.csv", "2"));
   using namespace std::string_view_literals;
   EXPECT_THAT(told("\xFF\xFE"
                    "e\0x\0"sv),
-              Tells(testing::HasSubstr("cw.csv is not plain text: byte "), Help::save_as_csv));
+              Tells(CsvProblem::not_plain_text, "cw.csv", "4"));
 }
 
 TEST(EndPoseCsv, AFileThatMixesDirectionsIsRefusedWhereOneIsWanted) {
-  EXPECT_THAT(
-      told("ex_m,ey_m,direction\n1,2,cw\n1,2,CW\n1,2,ccw\n"),
-      Tells("cw.csv, line 4: column direction: the file mixes cw and ccw runs where one direction is wanted",
-            Help::split_by_direction));
+  EXPECT_THAT(told("ex_m,ey_m,direction\n1,2,cw\n1,2,CW\n1,2,ccw\n"),
+              Tells(Problem::both_directions, "cw.csv", "4"));
 }
 
 TEST(EndPoseCsv, ADirectionThatIsNoneIsRefused) {
-  EXPECT_EQ(refusal("direction,x_err_m,y_err_m\nleft,1,2\n"),
-            "cw.csv, line 2: column direction: \"left\" is not a direction, which is cw or ccw");
+  EXPECT_THAT(told("direction,x_err_m,y_err_m\nleft,1,2\n"),
+              Tells(Problem::no_direction, "cw.csv", "2", "left"));
 }
 
 TEST(EndPoseCsv, ATapeMeasureTableIsRead) {
@@ -146,8 +132,7 @@ TEST(EndPoseCsv, ATapeMeasureTableIsRead) {
   EXPECT_DOUBLE_EQ(runs[0].theta_rad, std::numbers::pi / 20);
   EXPECT_DOUBLE_EQ(runs[1].y_m, -0.2);
   EXPECT_TRUE(std::isnan(runs[1].theta_rad));
-  EXPECT_EQ(refusal("direction,x_err,y_err_m\ncw,1,2\n"),
-            "cw.csv, line 1: column x_err does not say its unit, as ex_mm or ex_cm or ex_m does");
+  EXPECT_THAT(told("direction,x_err,y_err_m\ncw,1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "x_err"));
 }
 
 }  // namespace

@@ -1,16 +1,17 @@
 #include "host/calibration/end_poses/end_pose.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "tests/host/calibration/end_poses/square_runs.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {
 namespace {
+
+using support::ThrowsTelling;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const std::vector<EndPose> kNear{{3, 4, 0.1}, {3, 4, 0.3}, {6, 1, 0.2}};
@@ -58,15 +59,14 @@ TEST(Summary, MaximumIsTheWorseDirectionWithItsStandardError) {
 }
 
 TEST(Summary, RefusesWhatIsNoMeasurement) {
-  const auto told = [](std::vector<EndPose> runs) {
-    return support::told_by([&] { (void)summarize(runs); });
-  };
-  EXPECT_THAT(told({}), support::Tells("there is no run", Help::drive_some_squares));
-  const auto not_finite =
-      support::Tells("run 2 has an end pose that is not finite", Help::measure_again_or_leave_out);
-  EXPECT_THAT(told({{0, 0, 0}, {kNaN, 0, 0}}), not_finite);
-  EXPECT_THAT(told({{0, 0, 0}, {0, INFINITY, 0}}), not_finite);
-  EXPECT_THAT(told({{0, 0, 0}, {0, 0, -INFINITY}}), not_finite);
+  const Remark of_none = support::told_by([] { summarize(std::vector<EndPose>{}); });
+  EXPECT_THAT(of_none, support::Tells(EndPoseProblem::no_run));
+  EXPECT_THAT(of_none.values, testing::IsEmpty()) << "no direction";
+  for (const EndPose& bad : {EndPose{kNaN, 0, 0}, EndPose{0, INFINITY, 0}, EndPose{0, 0, -INFINITY}})
+    EXPECT_THAT(([&] {
+                  summarize(std::vector<EndPose>{{0, 0, 0}, bad});
+                }),
+                ThrowsTelling(EndPoseProblem::not_finite, "run 2"));
 }
 
 TEST(Summary, OfHeadingsThatSomeRunsLackIsThatOfTheOthers) {
@@ -81,11 +81,10 @@ TEST(Summary, OfHeadingsThatSomeRunsLackIsThatOfTheOthers) {
 
 TEST(Summary, NamesTheDirectionOfABadRun) {
   const std::vector<EndPose> bad{{0, kNaN, 0}};
-  EXPECT_EQ(
-      test::error_of([&] { (void)summarize(kNear, bad); }).find("counter-clockwise run 1 has an end pose"),
-      0U);
-  EXPECT_EQ(test::error_of([&] { (void)summarize(bad, kNear); }).find("clockwise run 1 has an end pose"), 0U);
-  EXPECT_EQ(test::error_of([&] { (void)summarize({}, kNear); }).find("there is no clockwise run"), 0U);
+  EXPECT_THAT([&] { summarize(kNear, bad); },
+              ThrowsTelling(EndPoseProblem::not_finite, "counter-clockwise run 1"));
+  EXPECT_THAT([&] { summarize(bad, kNear); }, ThrowsTelling(EndPoseProblem::not_finite, "clockwise run 1"));
+  EXPECT_THAT(([&] { summarize({}, kNear); }), ThrowsTelling(EndPoseProblem::no_run, "clockwise"));
 }
 
 }  // namespace

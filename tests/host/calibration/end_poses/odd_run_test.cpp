@@ -13,7 +13,6 @@ namespace astro::calibration {
 namespace {
 
 using namespace test;
-using testing::HasSubstr;
 
 const SquareSetup kSetup{kSide_m, kNominal};
 

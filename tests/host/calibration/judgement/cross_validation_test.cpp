@@ -1,6 +1,6 @@
 #include "host/calibration/judgement/cross_validation.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,9 @@
 
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -237,9 +239,9 @@ TEST(CrossValidation, NamesWhatCannotBeHeldOut) {
   const MlEstimate all = estimate_ml(drives, model.loaded, options);
   const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
   EXPECT_EQ(judged.verdict, Verdict::unknown);
-  ASSERT_EQ(judged.not_judged.size(), 2u);
-  EXPECT_EQ(judged.not_judged[0].sentence.rfind("without the line, ", 0), 0u)
-      << judged.not_judged[0].sentence;
+  using Problem = LikelihoodProblem;
+  EXPECT_THAT(judged.not_judged, testing::ElementsAre(support::Tells(Problem::all_move_alike, "the line"),
+                                                      support::Tells(Problem::all_move_alike, "the spin")));
 }
 
 TEST(CrossValidation, IsNotBetterOnWhatWasNotHeldOut) {
@@ -274,7 +276,7 @@ TEST(CrossValidation, HoldsOutMeasuredLines) {
   EXPECT_NE(judged_by_lines({3.060, 3.000, 3.001}).verdict, Verdict::better) << "one mistyped";
   const CrossValidation single = judged_by_lines({3.06});
   EXPECT_EQ(single.verdict, Verdict::unknown);
-  EXPECT_EQ(single.not_judged.at(0).sentence, "the scale comes from a single line");
+  EXPECT_THAT(single.not_judged, testing::ElementsAre(support::Tells(JudgementProblem::single_line)));
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 #include "host/calibration/judgement/precision.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "tests/host/calibration/end_poses/square_runs.hpp"
+#include "host/base/require_positive.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -30,15 +31,15 @@ TEST(Precision, FourTimesTheDriveHalvesTheError) {
 }
 
 TEST(Precision, RefusesWhatIsNoDrive) {
-  const auto message = [](auto call) { return test::error_of([&] { (void)call(); }); };
-  EXPECT_EQ(message([] {
-              return reachable_precision({std::nan(""), 10}, kSlip_m, kWheelbase_m);
-            }),
-            "the distance in metres is nan, and has to be a positive number");
-  EXPECT_EQ(message([] {
-              return reachable_precision({10, 0}, kSlip_m, kWheelbase_m);
-            }),
-            "the rotation in radians is 0, and has to be a positive number");
+  using support::ThrowsTelling;
+  EXPECT_THAT(([] {
+                reachable_precision({std::nan(""), 10}, kSlip_m, kWheelbase_m);
+              }),
+              ThrowsTelling(SettingProblem::not_positive, "the distance in metres", "nan"));
+  EXPECT_THAT(([] {
+                reachable_precision({10, 0}, kSlip_m, kWheelbase_m);
+              }),
+              ThrowsTelling(SettingProblem::not_positive, "the rotation in radians", "0"));
 }
 
 }  // namespace

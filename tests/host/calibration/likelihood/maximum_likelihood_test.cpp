@@ -16,8 +16,6 @@ namespace astro::calibration {
 namespace {
 
 using simulation::study::DriveModel;
-using testing::AllOf;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// The parameters in standard errors from the truth.
@@ -353,9 +351,9 @@ TEST(MaximumLikelihood, SaysWhenWhichRunWasKicked) {
   EXPECT_NEAR(slip_events[0].turned_rad, 0.06, 5e-3);
   EXPECT_NEAR(slip_events[1].since_start_s, 31, 0.1);
   EXPECT_NEAR(slip_events[1].turned_rad, -0.04, 5e-3);
-  EXPECT_THAT(remarks(found), testing::Contains(support::Tells(
-                                  AllOf(HasSubstr("run 3"), HasSubstr("s after its start by 3.")),
-                                  Help::leave_out_if_accident)));
+  EXPECT_THAT(remarks(found), testing::Contains(support::Tells(JudgementProblem::run_slipped, "run 3",
+                                                               testing::_, testing::StartsWith("3."),
+                                                               testing::_, testing::StartsWith("-2."))));
 }
 
 TEST(MaximumLikelihood, ComesToAnEndForManyRunsOfWhichEachHasOtherWheels) {
@@ -424,7 +422,7 @@ TEST(MaximumLikelihood, NamesTheRunThatSlipped) {
   // The others say what they said before.
   EXPECT_LT(std::abs(found.E_d() - clean.E_d()), clean.se.E_d);
   EXPECT_LT(found.se.E_d, 1.3 * clean.se.E_d);
-  EXPECT_THAT(remarks(found).front(), support::Tells(HasSubstr("run 3"), Help::leave_out_if_accident));
+  EXPECT_THAT(remarks(found).front(), support::Tells(JudgementProblem::run_stands_out, "run 3"));
 }
 
 /// Squares, and circles about 1.5 m wide.
@@ -538,9 +536,7 @@ TEST(MaximumLikelihood, DoesWithoutASpinThatPositionsCannotSee) {
   const MlEstimate found = estimate_ml(runs, model.loaded);
   expect_true(found, model.actual);
   EXPECT_EQ(found.runs.size(), 4u);
-  EXPECT_THAT(remarks(found), testing::Contains(support::Tells(
-                                  AllOf(HasSubstr("spin"), HasSubstr("stand still"), HasSubstr("left out")),
-                                  Help::export_orientation_or_mount_off_axis)));
+  EXPECT_THAT(remarks(found), testing::Contains(support::Tells(PreparationProblem::positions_stay, "spin")));
 }
 
 TEST(MaximumLikelihood, CallsAWideCircleATurn) {
@@ -559,9 +555,9 @@ TEST(MaximumLikelihood, SaysSoWhenTheGivenNoiseIsTooSmall) {
   options.noise = NoiseModel{model.noise.K_m, model.noise.sigma_xy_m / 5, model.noise.sigma_theta_rad / 5};
   MlEstimate found = estimate_ml(squares(model, 2), model.loaded, options);
   EXPECT_THAT(remarks(found, true),
-              testing::Contains(support::Tells(HasSubstr("given noise"), Help::estimate_noise)));
+              testing::Contains(support::Tells(JudgementProblem::given_noise_is_wrong)));
   EXPECT_THAT(remarks(found, false),
-              testing::Contains(support::Tells(HasSubstr("estimated noise"), Help::look_for_odd_run)))
+              testing::Contains(support::Tells(JudgementProblem::estimated_noise_is_wrong)))
       << "noise that nobody gave cannot be left out";
 }
 

@@ -4,10 +4,11 @@
 
 #include <fstream>
 
-#include "host/base/error.hpp"
+#include "host/base/files.hpp"
 #include "host/commands/live/robot_driver.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/live/driver/parameter_table.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::commands {
@@ -15,7 +16,6 @@ namespace {
 
 using live::ParameterType;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 using Words = std::vector<std::string>;
 
@@ -99,7 +99,8 @@ TEST(RosArguments, AFileHasSectionsForNodesByTheirFullNames) {
       ElementsAre("use_sim_time = true", "qos.depth = whole 3", "kp = whole 20", "ki = real 1.500000"));
   EXPECT_THAT(parameters({"--params-file", file, "-p", "kp:=5"}), testing::Contains("kp = whole 5"));
   EXPECT_THAT(parameters({"-p", "kp:=5", "--params-file", file}), testing::Contains("kp = whole 10"));
-  EXPECT_THROW(read({"--params-file", (folder.path() / "none.yaml").string()}), Error);
+  const std::string none = (folder.path() / "none.yaml").string();
+  EXPECT_THAT(([&] { read({"--params-file", none}); }), support::ThrowsTelling(FileProblem::missing, none));
 }
 
 TEST(RosArguments, WhatThisNodeHasNoneOfIsPassedOver) {
@@ -109,19 +110,22 @@ TEST(RosArguments, WhatThisNodeHasNoneOfIsPassedOver) {
 }
 
 TEST(RosArguments, AWordThatIsNoneOfThemIsNamed) {
-  for (const auto& [words, said] :
-       std::vector<std::pair<Words, std::string>>{{{"-r"}, "-r needs a value"},
-                                                  {{"-r", "odom"}, "'odom' is not FROM:=TO"},
-                                                  {{"-r", ":=odom"}, "is not FROM:=TO"},
-                                                  {{"-r", "odom:="}, "is not FROM:=TO"},
-                                                  {{"-r", "__node:=a/b"}, "'a/b'"},
-                                                  {{"-r", "__ns:=left"}, "'left'"},
-                                                  {{"-r", "odom:=1st"}, "1st"},
-                                                  {{"-p", "kp"}, "'kp' is not"},
-                                                  {{"-p", "kp:={"}, "kp"},
-                                                  {{"__node:=base"}, "knows no '__node:=base'"},
-                                                  {{"--params-file"}, "--params-file needs a value"}})
-    EXPECT_THAT(why_not(words), testing::AllOf(HasSubstr("--ros-args"), HasSubstr(said))) << said;
+  const std::string word = "has to be letters, digits and underscores, and must not begin with a digit",
+                    path = "it has to begin with a /, and what is between two of them " + word;
+  for (const auto& [words, said] : std::vector<std::pair<Words, std::string>>{
+           {{"-r"}, "-r needs a value"},
+           {{"-r", "odom"}, "-r 'odom' is not FROM:=TO"},
+           {{"-r", ":=odom"}, "-r ':=odom' is not FROM:=TO"},
+           {{"-r", "odom:="}, "-r 'odom:=' is not FROM:=TO"},
+           {{"-r", "__node:=a/b"}, "-r: the name of the node is 'a/b': it " + word},
+           {{"-r", "__ns:=left"}, "-r: the namespace is 'left': " + path},
+           {{"-r", "odom:=1st"}, "-r: the name is '/1st': " + path},
+           {{"-p", "kp"}, "-p 'kp' is not FROM:=TO"},
+           {{"__node:=base"}, "knows no '__node:=base'"},
+           {{"--params-file"}, "--params-file needs a value"}})
+    EXPECT_EQ(why_not(words), "--ros-args: " + said);
+  EXPECT_THAT(why_not({"-p", "kp:={"}),
+              testing::StartsWith("--ros-args: -p 'kp:={': kp, line 1: this is not YAML: "));
 }
 
 TEST(RosArguments, ParametersOfTheNodeTakeThePlaceOfOptions) {

@@ -6,14 +6,15 @@
 
 #include "host/base/error.hpp"
 #include "tests/support/base/bounded.hpp"
+#include "tests/support/base/remarks.hpp"
 
 namespace astro::bag {
 namespace {
 
 using astro::support::measured;
 using astro::support::Taken;
+using astro::support::ThrowsTelling;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 std::vector<std::string> paths(std::string_view text) {
   std::vector<std::string> all;
@@ -33,16 +34,10 @@ TEST(YamlScalars, EachValueHasTheKeysThatLeadToIt) {
 }
 
 TEST(YamlScalars, WhatIsNoYamlIsRefusedWithItsLine) {
-  const auto why = [](std::string_view text) -> std::string {
-    try {
-      yaml_scalars(text, "x.yaml");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_THAT(why("a: 1\nb: [1, 2\nc: }"), HasSubstr("x.yaml, line 3: this is not YAML"));
-  EXPECT_THAT(why(std::string(100, '[')), HasSubstr("nests deeper"));
+  EXPECT_THAT([] { yaml_scalars("a: 1\nb: [1, 2\nc: }", "x.yaml"); },
+              ThrowsTelling(YamlProblem::not_yaml, "x.yaml", "3"));
+  EXPECT_THAT([] { yaml_scalars("a: 1\n" + std::string(100, '['), "x.yaml"); },
+              ThrowsTelling(YamlProblem::nested_too_deep, "x.yaml", "2"));
 }
 
 TEST(YamlScalars, TextThatWouldMultiplyItselfIsBounded) {
