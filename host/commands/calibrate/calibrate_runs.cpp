@@ -56,6 +56,8 @@ experiment::Calibration calibrate_runs(const RunsOptions& options) {
   return found;
 }
 
+constexpr const char* kLeaveRunOut = ": leave it out (of a folder: 'astrolabe calibrate runs --without {0}')";
+
 constexpr Advice kCalibrateRunsAdvice[] = {
     {calibration::JudgementProblem::too_few_squares, ": drive some with 'astrolabe umbmark'"},
     {calibration::LikelihoodProblem::wheel_turns_backwards,
@@ -65,8 +67,9 @@ constexpr Advice kCalibrateRunsAdvice[] = {
      "; 'astrolabe check-wiring' finds crossed or reversed wires"},
     {calibration::PreparationProblem::heading_stays,
      ": export the orientation, too, or see what 'astrolabe check-wiring' finds"},
-    {experiment::AnalysisProblem::run_unusable,
-     ": leave it out (of a folder: 'astrolabe calibrate runs --without {0}')"},
+    {experiment::AnalysisProblem::no_odometry, kLeaveRunOut},
+    {experiment::AnalysisProblem::times_run_backwards, kLeaveRunOut},
+    {experiment::AnalysisProblem::file_lacks_parameter, kLeaveRunOut},
     {experiment::AnalysisProblem::run_without_truth,
      ": leave it out with 'astrolabe calibrate runs --without {0}', or use --method robust, extended or "
      "umbmark"},

@@ -97,12 +97,14 @@ std::string verdict_lines(const calibration::CrossValidation& judgement) {
   return text.str();
 }
 
-robot::Value value_of(const toml::node& node, const std::string& where) {
+robot::Value value_of(const toml::node& node, const fs::path& path, const std::string& name) {
   if (const auto number = node.value_exact<double>()) return *number;
   if (const auto integer = node.value_exact<std::int64_t>()) return static_cast<double>(*integer);
   if (const auto flag = node.value_exact<bool>()) return *flag ? 1.0 : 0.0;
   if (const auto text = node.value_exact<std::string>()) return *text;
-  throw Error(where + " is neither a number nor a text");
+  throw Error(fmt::format("'{}' line {}: [parameters] {} is neither a number nor a text", path.string(),
+                          node.source().begin.line, name),
+              ParameterFileProblem::value_of_other_type, {path.string(), name});
 }
 
 std::map<std::string, double> numbers_in(toml::node_view<const toml::node> section) {
@@ -127,8 +129,8 @@ NominalWheel wheel_of(const toml::table& file, const fs::path& path) {
   const NominalWheel wheel{file["nominal"]["wheel_diameter"].value_or(0.0),
                            file["nominal"]["counts_per_wheel_turn"].value_or(kAngleCounts)};
   if (!(wheel.diameter_m > 0) || !(wheel.counts_per_turn > 0))
-    throw Error("'" + path.string() +
-                "': [nominal] needs a wheel_diameter and counts_per_wheel_turn above 0");
+    throw Error("'" + path.string() + "': [nominal] needs a wheel_diameter and counts_per_wheel_turn above 0",
+                ParameterFileProblem::bad_wheel, {path.string()});
   return wheel;
 }
 
@@ -144,7 +146,8 @@ calibration::FactorCovariance covariance_of(const toml::table& file, const fs::p
               .value<double>();
       if (!entry || !std::isfinite(*entry))
         throw Error("'" + path.string() +
-                    "': [covariance] needs a matrix of four rows of four numbers, or three of three");
+                        "': [covariance] needs a matrix of four rows of four numbers, or three of three",
+                    ParameterFileProblem::bad_covariance, {path.string()});
       covariance(row, column) = *entry;
     }
   return covariance;
@@ -153,7 +156,8 @@ calibration::FactorCovariance covariance_of(const toml::table& file, const fs::p
 double slip_of(const toml::table& file, const fs::path& path) {
   const double K_m = file["slip"]["K"].value_or(-1.0);
   if (!(K_m >= 0) || !std::isfinite(K_m))
-    throw Error("'" + path.string() + "': [slip] needs a K of 0 or more, in metres");
+    throw Error("'" + path.string() + "': [slip] needs a K of 0 or more, in metres",
+                ParameterFileProblem::bad_slip, {path.string()});
   return K_m;
 }
 
@@ -221,12 +225,12 @@ ParameterFile read_parameter_file(const fs::path& path) {
   const toml::table* parameters = file["parameters"].as_table();
   if (parameters == nullptr || parameters->empty())
     throw Error("'" + path.string() +
-                "' has no [parameters]: it is no calibration and no export of a robot's parameters");
+                    "' has no [parameters]: it is no calibration and no export of a robot's parameters",
+                ParameterFileProblem::no_parameters, {path.string()});
   ParameterFile result;
   for (const auto& [key, node] : *parameters) {
     const std::string name(key.str());
-    result.parameters[name] = value_of(
-        node, fmt::format("'{}' line {}: [parameters] {}", path.string(), node.source().begin.line, name));
+    result.parameters[name] = value_of(node, path, name);
   }
   result.loaded = numbers_in(file["carried"]);
   result.standard_errors = numbers_in(file["standard_errors"]);

@@ -12,6 +12,9 @@
 /// keep what is to be loaded under [parameters], by table name and in SI units.
 namespace astro::experiment {
 
+/// What is wrong with a file of parameters. Values: the file and, of value_of_other_type, the parameter.
+enum class ParameterFileProblem { no_parameters, value_of_other_type, bad_wheel, bad_covariance, bad_slip };
+
 /// What the first line of a file with factors says of it.
 inline constexpr const char* kFoundFactors = "Found by Astrolabe, to be uploaded to the robot that drove.";
 

@@ -15,7 +15,7 @@ double factor(const ParameterFile& file, const std::filesystem::path& path, cons
   const std::optional<double> value = number_named(file.parameters, name);
   if (!value)
     throw Error(fmt::format("{} has no {} under [parameters]", path.string(), name),
-                AnalysisProblem::no_calibration);
+                AnalysisProblem::no_calibration, {name, path.string()});
   return *value;
 }
 
@@ -24,9 +24,11 @@ double factor(const ParameterFile& file, const std::filesystem::path& path, cons
 NamedFactors factors_of_file(const std::filesystem::path& path, const NominalWheel& wheel) {
   const ParameterFile file = read_parameter_file(path);
   if (file.wheel && !wheel.measures_like(*file.wheel))
-    throw Error(fmt::format(
-        "{} is for {}, the drives were recorded with {}: its c_R and c_L mean another thing there",
-        path.string(), file.wheel->described(), wheel.described()));
+    throw Error(
+        fmt::format(
+            "{} is for {}, the drives were recorded with {}: its c_R and c_L mean another thing there",
+            path.string(), file.wheel->described(), wheel.described()),
+        AnalysisProblem::factors_of_other_wheel, {path.string()});
   const NamedFactors found{
       path.string(),
       with_curvature_named({factor(file, path, "c_R"), factor(file, path, "c_L"), factor(file, path, "b")},

@@ -41,7 +41,7 @@ void require_possible(const std::string& name, double value) {
 double factor(const ParameterFile& file, const std::string& name) {
   const std::optional<double> value = number_named(file.parameters, name);
   if (!value || !std::isfinite(*value) || *value <= 0)
-    throw Error("the file has no " + name + " under [parameters]", AnalysisProblem::no_calibration);
+    throw Error("the file has no " + name + " under [parameters]", AnalysisProblem::no_calibration, {name});
   require_possible(name, *value);
   return *value;
 }
@@ -124,16 +124,17 @@ std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDriv
   const double e = with_curvature_named({}, file.parameters, "the calibration").e;
   if (e == 0) return std::nullopt;
   const double b_m = factor(file, "b");
-  return Remark{
-      fmt::format("diff_drive_controller knows one wheelbase, and this robot has two: spins turn "
-                  "about {:.6g} m, which "
-                  "is written, gentle arcs about {:.6g} m (e = {:.4g}), so that its odometry turns "
-                  "them up to {:.1f} % "
-                  "too {}; drive with the odometry of Astrolabe's firmware, which has both, or set "
-                  "wheel_separation_multiplier to "
-                  "{:.6g} if the robot mostly drives arcs",
-                  b_m, b_m * (1 + e), e, 100 * std::abs(e), e > 0 ? "far" : "little",
-                  parameters.wheel_separation_multiplier * (1 + e))};
+  const std::string e_text = fmt::format("{:.4g}", e), percent = fmt::format("{:.1f}", 100 * std::abs(e)),
+                    too = e > 0 ? "far" : "little",
+                    multiplier = fmt::format("{:.6g}", parameters.wheel_separation_multiplier * (1 + e));
+  return Remark{fmt::format("diff_drive_controller knows one wheelbase, and this robot has two: spins turn "
+                            "about {:.6g} m, which is written, gentle arcs about {:.6g} m (e = {}), so that "
+                            "its odometry turns them up to {} % too {}; drive with the odometry of "
+                            "Astrolabe's firmware, which has both, or set wheel_separation_multiplier to {} "
+                            "if the robot mostly drives arcs",
+                            b_m, b_m * (1 + e), e_text, percent, too, multiplier),
+                ExportProblem::second_wheelbase,
+                {e_text, percent, too, multiplier}};
 }
 
 bool is_ros2_node(std::string_view name) {

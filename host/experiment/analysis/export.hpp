@@ -11,6 +11,11 @@
 /// Exports a calibration for other programs.
 namespace astro::experiment {
 
+/// What another program cannot say of a robot. Values of second_wheelbase: e, by how many percent gentle arcs
+/// are turned wrong, whether too "far" or too "little", and the wheel_separation_multiplier that is right for
+/// them.
+enum class ExportProblem { second_wheelbase };
+
 /// The parameters of ROS 2's diff_drive_controller that a calibration determines. That controller moves a wheel
 /// that turns by an angle phi by phi * wheel_radius * (its multiplier), and turns the robot by the difference
 /// of both over wheel_separation * wheel_separation_multiplier.

@@ -16,8 +16,8 @@ double loaded_parameter(const recording::RunInfo& info, const char* parameter, c
   if (value && std::isfinite(*value) && *value > 0) return *value;
   const std::string fact = fmt::format("the recording '{}' does not say which {} was loaded in the robot",
                                        file.empty() ? run_name(info) : file, parameter);
-  if (file.empty()) throw Error(fact);
-  throw Error(fact, AnalysisProblem::run_unusable, {file});
+  if (file.empty()) throw Error(fact, AnalysisProblem::run_lacks_parameter, {run_name(info), parameter});
+  throw Error(fact, AnalysisProblem::file_lacks_parameter, {file, parameter});
 }
 
 }  // namespace astro::experiment

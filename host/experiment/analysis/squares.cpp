@@ -50,11 +50,14 @@ void accept(Squares& squares, AllDriven& driven, const recording::Run& run, bool
   if (!same_factors(loaded, squares.loaded))
     throw Error(
         "the squares were driven with different c_R, c_L or b, or another e: calibrate each phase for itself "
-        "(name its folder)");
+        "(name its folder)",
+        AnalysisProblem::squares_of_different_factors);
   if (!same_number(run.info.size_m, squares.side_m))
     throw Error(
         fmt::format("the squares have different sides ({} m and {} m): keep each size in a folder of its own",
-                    squares.side_m, run.info.size_m));
+                    squares.side_m, run.info.size_m),
+        AnalysisProblem::squares_of_different_sizes,
+        {fmt::format("{}", squares.side_m), fmt::format("{}", run.info.size_m)});
   Driven& direction = driven.of(*run.info.direction);
   direction.ends.push_back(end_in(run));
   direction.names.push_back(recording::run_name(run.info));
@@ -100,7 +103,8 @@ calibration::WheelFactors loaded_in_all(const RunSet& set) {
   for (std::size_t i = 1; i < set.runs.size(); ++i)
     if (!same_factors(loaded_factors(set.runs[i].info), first))
       throw Error(fmt::format("the robot had other factors loaded in {} than in {}: check them separately",
-                              set.names[i], set.names.front()));
+                              set.names[i], set.names.front()),
+                  AnalysisProblem::runs_of_different_factors, {set.names[i], set.names.front()});
   return first;
 }
 

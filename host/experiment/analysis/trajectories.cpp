@@ -41,7 +41,7 @@ class Clock {
   bool advances(std::int64_t time_us) {
     if (any_ && time_us < last_us_)
       throw Error(fmt::format("the times of the {} in '{}' run backwards, as after a restart", stream_, run_),
-                  AnalysisProblem::run_unusable, {run_});
+                  AnalysisProblem::times_run_backwards, {run_, stream_});
     const bool later = !any_ || time_us > last_us_;
     any_ = true;
     last_us_ = time_us;
@@ -89,7 +89,7 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
                     name),
         AnalysisProblem::run_without_truth, {name});
   if (run.odometry.empty())
-    throw Error(fmt::format("the recording '{}' holds no odometry", name), AnalysisProblem::run_unusable,
+    throw Error(fmt::format("the recording '{}' holds no odometry", name), AnalysisProblem::no_odometry,
                 {name});
   calibration::Trajectory trajectory;
   trajectory.name = name;
@@ -128,12 +128,14 @@ void require_comparable(const recording::RunInfo& a, const std::string& a_name, 
                         const std::string& b_name) {
   if (a.robot_id != b.robot_id)
     throw Error(fmt::format("'{}' and '{}' were driven by different robots: calibrate each for itself",
-                            a_name, b_name));
+                            a_name, b_name),
+                AnalysisProblem::runs_of_different_robots, {a_name, b_name});
   if (nominal_wheel(a, a_name) != nominal_wheel(b, b_name))
     throw Error(
         fmt::format("'{}' and '{}' were driven with different wheel diameters, gears or encoders in the "
                     "parameters, to which c_R and c_L refer: calibrate each for itself",
-                    a_name, b_name));
+                    a_name, b_name),
+        AnalysisProblem::runs_of_different_wheels, {a_name, b_name});
 }
 
 }  // namespace astro::experiment

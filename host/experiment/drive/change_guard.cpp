@@ -33,20 +33,31 @@ std::string change_in_words(const Change& change) {
   return is_visible ? fmt::format("{:+.4f} %", percent) : "< 0.0001 %";
 }
 
-std::string incomplete(const ParameterFile& file) {
+std::optional<Remark> of_other_robot(const ParameterFile& file, const RobotIdentity& identity) {
+  const std::string why = different_robots("the calibration", file.robot, "this", identity);
+  if (why.empty()) return std::nullopt;
+  return Remark{why, UploadProblem::of_other_robot, {file.robot.id, identity.id}};
+}
+
+std::optional<Remark> incomplete(const ParameterFile& file) {
   const auto has = [&](const char* name) { return file.parameters.contains(name); };
-  if (file.method.empty() || (has("c_R") && has("c_L") && has("b"))) return {};
+  if (file.method.empty() || (has("c_R") && has("c_L") && has("b"))) return std::nullopt;
   const char* missing = !has("c_R") ? "c_R" : !has("c_L") ? "c_L" : "b";
-  return fmt::format("the calibration has no {}, and c_R, c_L and b were found together", missing);
+  return Remark{fmt::format("the calibration has no {}, and c_R, c_L and b were found together", missing),
+                UploadProblem::incomplete,
+                {missing}};
 }
 
 /// A calibration without e says what b is where all arcs turn about it.
-std::string foreign_e(const robot::RemoteParameters& robot, const ParameterFile& file) {
-  if (file.method.empty() || file.parameters.contains("e")) return {};
+std::optional<Remark> foreign_e(const robot::RemoteParameters& robot, const ParameterFile& file) {
+  if (file.method.empty() || file.parameters.contains("e")) return std::nullopt;
   const double e = loaded_factors(robot).e;
-  if (same_number(e, 0)) return {};
-  return fmt::format(
-      "the calibration knows no e, and the robot holds e = {:.6g}, which its b does not go with", e);
+  if (same_number(e, 0)) return std::nullopt;
+  const std::string held = fmt::format("{:.6g}", e);
+  return Remark{
+      "the calibration knows no e, and the robot holds e = " + held + ", which its b does not go with",
+      UploadProblem::foreign_e,
+      {held}};
 }
 
 std::string shown(const robot::Value& value) {
@@ -63,67 +74,76 @@ calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot) {
 
 ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values) {
   if (std::ranges::find(robot, "e", &robot::ParameterRow::name) != robot.end()) return values;
-  if (const double e = number_named(values, "e").value_or(0); e != 0)
-    throw Error(
-        fmt::format("the calibration has e = {:.6g}, and this robot's firmware has no e: it would turn "
-                    "gentle arcs about the wheelbase of spins: update the robot's firmware",
-                    e));
+  if (const double e = number_named(values, "e").value_or(0); e != 0) {
+    const std::string number = fmt::format("{:.6g}", e);
+    throw Error("the calibration has e = " + number +
+                    ", and this robot's firmware has no e: it would turn gentle arcs about the wheelbase of "
+                    "spins: update the robot's firmware",
+                UploadProblem::e_unknown_to_firmware, {number});
+  }
   values.erase("e");
   values.erase("kappa0");
   return values;
 }
 
-std::string suspicion(const std::vector<Change>& changes) {
+std::optional<Remark> suspicion(const std::vector<Change>& changes) {
   for (const Change& change : changes) {
-    if (change.name == "e" && robot::is_far_e(change))
-      return fmt::format("e would go from {} to {}, and tyres give it a few hundredths at most",
-                         shown(change.before), shown(change.after));
+    if (change.name == "e" && robot::is_far_e(change)) {
+      const std::string before = shown(change.before), after = shown(change.after);
+      return Remark{
+          fmt::format("e would go from {} to {}, and tyres give it a few hundredths at most", before, after),
+          UploadProblem::suspicious,
+          {change.name, before, after}};
+    }
     const bool measured_by_ratio =
         robot::is_wheel_factor(change.name) && change.name != "e" && change.name != "kappa0";
-    if (measured_by_ratio && std::abs(relative(change)) > kMostChange)
-      return fmt::format("{} would change by {:+.1f} %, and a calibration moves it by a few at most",
-                         change.name, 100 * relative(change));
+    if (!measured_by_ratio || !(std::abs(relative(change)) > kMostChange)) continue;
+    const std::string percent = fmt::format("{:+.1f}", 100 * relative(change));
+    return Remark{fmt::format("{} would change by {} %, and a calibration moves it by a few at most",
+                              change.name, percent),
+                  UploadProblem::suspicious,
+                  {change.name, percent}};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file) {
-  if (file.absolute || file.loaded.empty()) return {};
+std::optional<Remark> wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file) {
+  if (file.absolute || file.loaded.empty()) return std::nullopt;
   std::map<std::string, double> then = file.loaded;
   then.try_emplace("e", 0);  // older versions did not know it
   const calibration::WheelFactors held = loaded_factors(robot);
   for (const auto& [name, loaded] : then) {
     if (name == "kappa0" && same_number(held.e, 0)) continue;  // of no effect
     const double now = name == "e" ? held.e : name == "kappa0" ? held.kappa0 : robot.number(name);
-    if (!same_number(now, loaded))
-      return fmt::format("the calibration was driven with {} = {:.9g}, and the robot now holds {:.9g}", name,
-                         loaded, now);
+    if (same_number(now, loaded)) continue;
+    const std::string then_text = fmt::format("{:.9g}", loaded), now_text = fmt::format("{:.9g}", now);
+    return Remark{fmt::format("the calibration was driven with {} = {}, and the robot now holds {}", name,
+                              then_text, now_text),
+                  UploadProblem::of_other_factors,
+                  {name, then_text, now_text}};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file) {
-  if (!file.wheel) return {};
+std::optional<Remark> wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file) {
+  if (!file.wheel) return std::nullopt;
   const NominalWheel now{robot.number("wheel_diameter"), robot.number("counts_per_motor_rev") *
                                                              robot.number("gear_numerator") /
                                                              robot.number("gear_denominator")};
-  if (now.measures_like(*file.wheel)) return {};
-  return fmt::format("the calibration refers to {}, and the robot's parameters now give {}",
-                     file.wheel->described(), now.described());
+  if (now.measures_like(*file.wheel)) return std::nullopt;
+  return Remark{fmt::format("the calibration refers to {}, and the robot's parameters now give {}",
+                            file.wheel->described(), now.described()),
+                UploadProblem::of_other_wheel,
+                {file.wheel->described(), now.described()}};
 }
 
 std::vector<Remark> objections(const robot::RemoteParameters& robot, const RobotIdentity& identity,
                                const ParameterFile& file, const std::vector<Change>& changes) {
   std::vector<Remark> all;
-  const auto add = [&](const std::string& why, UploadProblem problem) {
-    if (!why.empty()) all.push_back({why, problem});
-  };
-  add(different_robots("the calibration", file.robot, "this", identity), UploadProblem::of_other_robot);
-  add(incomplete(file), UploadProblem::incomplete);
-  add(foreign_e(robot, file), UploadProblem::foreign_e);
-  add(wrong_wheel(robot, file), UploadProblem::of_other_wheel);
-  add(wrong_loaded_factors(robot, file), UploadProblem::of_other_factors);
-  add(suspicion(changes), UploadProblem::suspicious);
+  for (const std::optional<Remark>& why :
+       {of_other_robot(file, identity), incomplete(file), foreign_e(robot, file), wrong_wheel(robot, file),
+        wrong_loaded_factors(robot, file), suspicion(changes)})
+    if (why) all.push_back(*why);
   return all;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,14 +12,15 @@
 
 namespace astro::experiment {
 
-/// Why a calibration should not be uploaded.
+/// Why a calibration should not be uploaded, or cannot be.
 enum class UploadProblem {
-  of_other_robot,
-  incomplete,
-  foreign_e,
-  of_other_wheel,
-  of_other_factors,
-  suspicious
+  of_other_robot,    // values: the ids of the calibration's robot and of this one
+  incomplete,        // value: the factor that is missing
+  foreign_e,         // value: the e that the robot holds
+  of_other_wheel,    // values: the calibration's wheel and the robot's
+  of_other_factors,  // values: a factor, what it was when the calibration was driven, and what it is now
+  suspicious,        // values: a factor, and by how many percent it would change; or "e", and both values
+  e_unknown_to_firmware,  // value: the calibration's e
 };
 
 using robot::Change;
@@ -31,17 +33,17 @@ calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot);
 ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values);
 
 /// A wheel factor that changes by more than a tenth is more likely a mistake (units, sides, another robot) than a
-/// calibration: states which one, or "" if there is none. Checks c_R, c_L and b, and e, which may change by a
+/// calibration: states which one, if there is one. Checks c_R, c_L and b, and e, which may change by a
 /// tenth of b whatever it is now.
-std::string suspicion(const std::vector<Change>& changes);
+std::optional<Remark> suspicion(const std::vector<Change>& changes);
 
 /// Why factors that are not absolute would be wrong on top of what is loaded in the robot now: they need the factors that
-/// were loaded when they were measured. "" if they are right.
-std::string wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file);
+/// were loaded when they were measured. Nothing if they are right.
+std::optional<Remark> wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file);
 
 /// Why factors would be wrong with the robot's nominal wheel (diameter, gear, encoder): they refer to another one, as far
-/// as the file tells it. "" if they are right.
-std::string wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file);
+/// as the file tells it. Nothing if they are right.
+std::optional<Remark> wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file);
 
 /// Why these changes are uploaded only on request: the file is of another robot than `identity`, c_R, c_L and b are not
 /// complete or lack the e that the robot has, and what the three checks above find. What its own drives say of a calibration is not among them

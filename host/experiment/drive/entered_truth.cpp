@@ -27,7 +27,7 @@ bool EnteredTruth::ask(recording::Run& run, const char* what_is_left) {
   } catch (const Interrupted&) {
     throw;
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) + what_is_left, ExperimentProblem::truth_missing);
+    throw Error(std::string(error.what()) + what_is_left, ExperimentProblem::truth_missing, {error.what()});
   }
 }
 

@@ -113,14 +113,19 @@ class Session {
             "along the way",
             ExperimentProblem::precision_unknown);
       const calibration::Precision reached = precision_of(found);
-      hooks_.run.notice({fmt::format("{}: {} + {} squares give {}", specs.front().phase, squares, squares,
-                                     described(reached))});
+      const std::string& name = specs.front().phase;
+      const std::string each = std::to_string(squares);
+      hooks_.run.notice({fmt::format("{}: {} + {} squares give {}", name, each, each, described(reached)),
+                         PrecisionNotice::reached_by_now,
+                         {name, each, described(reached)}});
       if (reaches(reached, until.target)) return;
       if (squares >= until.most) {
-        hooks_.run.notice(
-            {fmt::format("{}: that is not the {:.3g} % asked for, but {} squares in each "
-                         "direction are the most: going on with it",
-                         specs.front().phase, 100 * until.target, until.most)});
+        const std::string asked = fmt::format("{:.3g}", 100 * until.target);
+        hooks_.run.notice({fmt::format("{}: that is not the {} % asked for, but {} squares in each "
+                                       "direction are the most: going on with it",
+                                       name, asked, until.most),
+                           PrecisionNotice::most_squares,
+                           {name, each, asked}});
         return;
       }
     }
@@ -185,7 +190,8 @@ class Session {
       if (!same_factors(known->second, factors))
         throw Error(fmt::format("the robot holds {}, but phase '{}' of this experiment began with {}",
                                 in_words(factors), phase, in_words(known->second)),
-                    ExperimentProblem::other_factors_loaded);
+                    ExperimentProblem::other_factors_loaded,
+                    {phase, in_words(factors), in_words(known->second)});
       return;
     }
     journal_.loaded[phase] = factors;
@@ -202,7 +208,7 @@ class Session {
     const robot::Path path = path_of(journal_.plan, spec);
     const Remark broken_off{spec.title() + " was broken off, and the robot stands on its way",
                             ExperimentProblem::broken_off,
-                            {folder_.string()}};
+                            {folder_.string(), spec.title()}};
     bool on_its_way = false;  // the robot has left its start mark
     RunHooks hooks = hooks_.run;
     hooks.moved = [&](const recording::OdometrySample& sample) {
@@ -274,7 +280,7 @@ class Session {
     hooks_.calibrated(found, list);
     const Remark kept{"the robot keeps what it carries; the calibration is in '" + file.string() + "'",
                       ExperimentProblem::parameters_kept,
-                      {runs.string()}};
+                      {runs.string(), file.string()}};
     for (const Remark& why : objections(robot, identity_of(client_.robot()), calibration, list)) {
       hooks_.run.notice(hooks_.force ? Remark{"overridden: " + why.sentence} : kept);
       if (!hooks_.force) throw Error(why);

@@ -16,6 +16,11 @@
 
 namespace astro::experiment {
 
+/// What an experiment says that is driven until a precision is reached. Values: the phase, how many squares
+/// there are in each direction, and the precision that they give or, of most_squares, the one that was asked
+/// for in percent.
+enum class PrecisionNotice { reached_by_now, most_squares };
+
 /// What a person wants to be done about a run that is driven.
 enum class Redo {
   no,           // it is right

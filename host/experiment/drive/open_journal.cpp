@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
@@ -21,14 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `fact`: what is wrong with a recording.
-Error cannot_go_on(const Journal& journal, std::size_t phase, const fs::path& file, const std::string& fact) {
-  if (!is_over(journal, phase)) return Error(fact + to_drive_again(file));
-  return Error(
-      fact +
-          "; unless a whole copy takes its place, the experiment cannot go on, because the robot got "
-          "other factors since that run",
-      ExperimentProblem::cannot_go_on);
+/// `why`: what is wrong with the recording.
+Error to_be_driven_again(Remark why, const fs::path& file) {
+  why.sentence += to_drive_again(file);
+  return Error(why);
+}
+
+Error cannot_go_on(const Journal& journal, std::size_t phase, const fs::path& file, const Remark& why) {
+  if (!is_over(journal, phase)) return to_be_driven_again(why, file);
+  return Error(why.sentence +
+                   "; unless a whole copy takes its place, the experiment cannot go on, because the robot "
+                   "got other factors since that run",
+               ExperimentProblem::cannot_go_on, {file.string()});
 }
 
 /// "" if the recording is of this run.
@@ -47,20 +52,43 @@ std::string why_other_run(const Journal& journal, const RunSpec& spec, const rec
   return "";
 }
 
+/// Nothing if the recording can be used.
+std::optional<Remark> why_unusable(const Journal& journal, const RunSpec& spec, const fs::path& file,
+                                   const recording::Run& run) {
+  const auto unusable = [&](const std::string& fact) {
+    return Remark{fact, ExperimentProblem::recording_unusable, {file.string()}};
+  };
+  if (!run.warning.empty()) return Remark{run.warning, ExperimentProblem::recording_cut_off, {file.string()}};
+  if (const std::string why = why_other_run(journal, spec, run.info); !why.empty())
+    return unusable(file.string() + " " + why);
+  if (spec.kind != "square" || (journal.plan.truth == "film" && run.truth.empty())) return std::nullopt;
+  try {
+    recording::ends_of(run);
+  } catch (const Error& error) {
+    return unusable(fmt::format("{} cannot be used: {}", file.string(), error.what()));
+  }
+  return std::nullopt;
+}
+
+/// The same of a file, which may be damaged.
+std::optional<Remark> why_unusable(const Journal& journal, const RunSpec& spec, const fs::path& file) {
+  try {
+    return why_unusable(journal, spec, file, recording::read_run(file));
+  } catch (const Error& error) {
+    return Remark{error.what(), ExperimentProblem::recording_unusable, {file.string()}};
+  }
+}
+
 void require_recorded(const fs::path& folder, const Journal& journal, std::size_t phase,
                       const RunSpec& spec) {
   const fs::path file = file_of(folder, spec), driven = file_without_truth(folder, spec);
   if (fs::exists(file)) {
-    try {
-      require_usable(folder, journal, spec, recording::read_run(file));
-    } catch (const Error& error) {
-      throw cannot_go_on(journal, phase, file, error.what());
-    }
+    if (const auto why = why_unusable(journal, spec, file)) throw cannot_go_on(journal, phase, file, *why);
   } else if (is_over(journal, phase)) {
-    throw cannot_go_on(journal, phase, file, "'" + file.string() + "' is missing");
+    throw cannot_go_on(journal, phase, file, {"'" + file.string() + "' is missing"});
   } else if (fs::exists(driven)) {
     if (const std::string warning = recording::read_run(driven).warning; !warning.empty())
-      throw cannot_go_on(journal, phase, driven, warning);
+      throw to_be_driven_again({warning, ExperimentProblem::recording_cut_off, {driven.string()}}, driven);
   }
 }
 
@@ -90,11 +118,11 @@ void require_same(const fs::path& folder, const Journal& journal, const Plan& pl
   same.circle_turns = journal.plan.circle_turns;
   if (nlohmann::json(journal.plan) != nlohmann::json(same))
     throw Error("'" + folder.string() + "' holds an experiment with other settings",
-                ExperimentProblem::other_settings);
+                ExperimentProblem::other_settings, {folder.string()});
   if (const std::string other = different_robots("the experiment in '" + folder.string() + "'",
                                                  {journal.robot_name, journal.robot_id}, "this", identity);
       !other.empty())
-    throw Error(other, ExperimentProblem::other_robot);
+    throw Error(other, ExperimentProblem::other_robot, {folder.string()});
 }
 
 }  // namespace
@@ -111,16 +139,7 @@ bool is_over(const Journal& journal, std::size_t phase) {
 void require_usable(const fs::path& folder, const Journal& journal, const RunSpec& spec,
                     const recording::Run& run) {
   const fs::path file = file_of(folder, spec);
-  const std::string again = to_drive_again(file);
-  if (!run.warning.empty()) throw Error(run.warning + again);
-  if (const std::string why = why_other_run(journal, spec, run.info); !why.empty())
-    throw Error(file.string() + " " + why + again);
-  if (spec.kind != "square" || (journal.plan.truth == "film" && run.truth.empty())) return;
-  try {
-    recording::ends_of(run);
-  } catch (const Error& error) {
-    throw Error(fmt::format("{} cannot be used: {}", file.string(), error.what()) + again);
-  }
+  if (const auto why = why_unusable(journal, spec, file, run)) throw to_be_driven_again(*why, file);
 }
 
 Journal open_journal(const fs::path& folder, const Plan& plan, const robot::Client& client) {

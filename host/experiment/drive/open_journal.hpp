@@ -8,17 +8,19 @@
 
 namespace astro::experiment {
 
-/// What ends an experiment, or keeps it from going on. Values: its folder, or that of the runs of parameters_kept.
+/// What ends an experiment, or keeps it from going on.
 enum class ExperimentProblem {
-  other_settings,
-  other_robot,
-  cannot_go_on,
-  other_factors_loaded,
+  other_settings,        // value: the experiment's folder
+  other_robot,           // value: the experiment's folder
+  recording_cut_off,     // value: the recording
+  recording_unusable,    // value: the recording
+  cannot_go_on,          // value: the recording that is missing or cannot be used
+  other_factors_loaded,  // values: the phase, what the robot holds, and with what the phase began
   precision_unknown,
-  truth_missing,
-  broken_off,
-  parameters_kept,
-  not_uploaded
+  truth_missing,    // value: what the source says
+  broken_off,       // values: the experiment's folder, and the run
+  parameters_kept,  // values: the folder of the phase's runs, and the calibration
+  not_uploaded      // value: the experiment's folder
 };
 
 /// The end of a sentence about a recording that cannot be used.

@@ -8,6 +8,9 @@
 
 namespace astro::experiment {
 
+/// What is wrong with an e or a kappa0. Values: what it is from, its name, and what is there.
+enum class CurvatureProblem { of_no_robot, is_text };
+
 /// `factors` with e and kappa0; without them a robot turns every arc about b (e = 0). `where`: what the numbers are from,
 /// for the error: "the recording 'line 1'".
 ///

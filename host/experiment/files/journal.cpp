@@ -31,13 +31,16 @@ std::filesystem::path file_in(const std::filesystem::path& folder) { return fold
 }
 
 /// Refuses a plan that this program cannot have written, because its counts decide how much memory is used.
-Plan drivable_plan(const nlohmann::json& json, const std::string& damaged) {
+Plan drivable_plan(const nlohmann::json& json, const Remark& damaged) {
   try {
     const Plan plan = json.get<Plan>();
     plan.check();
     return plan;
   } catch (const Error& error) {
-    throw Error(damaged + " (" + error.what() + ")", JournalProblem::damaged);
+    Remark why = damaged;
+    why.sentence += std::string(" (") + error.what() + ")";
+    why.values.insert(why.values.end(), error.values().begin(), error.values().end());
+    throw Error(why);
   }
 }
 
@@ -49,8 +52,8 @@ Journal read_journal(const std::filesystem::path& folder) {
   const std::filesystem::path path = file_in(folder);
   if (!std::filesystem::exists(path)) fail_no_experiment(folder);
   const Bytes bytes = load_file(path, kMaxSettingsBytes);
-  const std::string damaged = "'" + path.string() + "' is damaged";
-  if (!json_fits_memory(as_text(bytes))) throw Error(damaged, JournalProblem::damaged);
+  const Remark damaged{"'" + path.string() + "' is damaged", JournalProblem::damaged, {path.string()}};
+  if (!json_fits_memory(as_text(bytes))) throw Error(damaged);
   try {
     const auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
     if (json.at("format") != kFormat)
@@ -69,7 +72,7 @@ Journal read_journal(const std::filesystem::path& folder) {
     journal.confirmed = json.value("confirmed", journal.confirmed);  // older versions have none
     return journal;
   } catch (const nlohmann::json::exception&) {
-    throw Error(damaged, JournalProblem::damaged);
+    throw Error(damaged);
   }
 }
 

@@ -10,7 +10,10 @@
 
 namespace astro::experiment {
 
-enum class JournalProblem { no_experiment, damaged };
+enum class JournalProblem {
+  no_experiment,
+  damaged  // values: the file, and those of the error that its plan gives
+};
 
 /// experiment.json: what a folder's experiment is and how far it went, so that it can be resumed. The runs
 /// themselves are the files beside it.

@@ -22,7 +22,9 @@ Enum find(const std::string& word, const char* what, const std::vector<Enum>& va
     names.emplace_back(name_of(value));
     if (names.back() == word) return value;
   }
-  throw Error(fmt::format("'{}' is no {}: there are {}{}", word, what, others, fmt::join(names, ", ")));
+  const std::string known = fmt::format("{}{}", others, fmt::join(names, ", "));
+  throw Error(fmt::format("'{}' is no {}: there are {}", word, what, known), NameProblem::unknown,
+              {word, what, known});
 }
 
 }  // namespace

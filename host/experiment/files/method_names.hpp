@@ -9,6 +9,9 @@
 /// The names of methods and orders that people type.
 namespace astro::experiment {
 
+/// Values: the word, what it is no name of, and the names that there are.
+enum class NameProblem { unknown };
+
 inline constexpr std::string_view kAutomaticName = "auto";
 inline constexpr std::string_view kMlName = "ml";
 

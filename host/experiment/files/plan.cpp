@@ -16,19 +16,23 @@ constexpr int kLinesByHand = 3;
 
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
-void need(bool condition, const std::string& sentence, Kind kind = {}, std::vector<std::string> values = {}) {
+void need(bool condition, const std::string& sentence, Kind kind, std::vector<std::string> values = {}) {
   if (!condition) throw Error(sentence, kind, std::move(values));
+}
+
+void need_within(const char* name, double value, double least, double most, const std::string& sentence) {
+  need(within(value, least, most), sentence, PlanProblem::out_of_range, {name, fmt::format("{}", value)});
 }
 
 int count_at(const nlohmann::json& json, const char* key) { return count_in(json.at(key).dump(), key); }
 
 void check_until(const Plan& plan) {
-  need(within(plan.until->target, 1e-6, 0.1),
-       fmt::format("a precision of {:g} % cannot be driven for: 0.0001 % to 10 % are possible",
-                   100 * plan.until->target));
-  need(plan.until->most >= kFewestPairs && plan.until->most <= 1000,
-       fmt::format("at most {} squares in each direction cannot be driven: {} to 1000 are possible",
-                   plan.until->most, kFewestPairs));
+  need_within("target", plan.until->target, 1e-6, 0.1,
+              fmt::format("a precision of {:g} % cannot be driven for: 0.0001 % to 10 % are possible",
+                          100 * plan.until->target));
+  need_within("most", plan.until->most, kFewestPairs, 1000,
+              fmt::format("at most {} squares in each direction cannot be driven: {} to 1000 are possible",
+                          plan.until->most, kFewestPairs));
   need(plan.order == Order::alternating, "squares driven until a precision is reached alternate",
        PlanProblem::order_of_open_ended);
   need(plan.method.family != MethodChoice::Family::end_poses,
@@ -42,22 +46,27 @@ void check_until(const Plan& plan) {
 }  // namespace
 
 void Plan::check() const {
-  need(runs >= 1 && runs <= 1000,
-       fmt::format("{} runs in each direction cannot be driven: 1 to 1000 are possible", runs));
+  need_within("runs", runs, 1, 1000,
+              fmt::format("{} runs in each direction cannot be driven: 1 to 1000 are possible", runs));
   if (until) check_until(*this);
-  need(rounds >= 1 && rounds <= 20, fmt::format("{} rounds cannot be driven: 1 to 20 are possible", rounds));
-  need(within(side_m, 0.2, 100),
-       fmt::format("a square of side {} m cannot be driven: 0.2 m to 100 m are possible", side_m));
-  need(within(speed_mps, 0.01, 5),
-       fmt::format("a speed of {} m/s cannot be driven: 0.01 to 5 m/s are possible", speed_mps));
-  need(within(yaw_rate_radps, 0.05, 20),
-       fmt::format("a yaw rate of {} rad/s cannot be driven: 0.05 to 20 rad/s are possible", yaw_rate_radps));
-  need(within(line_m, 0.1, 100),
-       fmt::format("a line of {} m cannot be driven: 0.1 m to 100 m are possible", line_m));
-  need(circles >= 1 && circles <= 100 && circle_turns >= 1 && circle_turns <= 100,
-       fmt::format("{} circles of {} turns cannot be driven: 1 to 100 are possible", circles, circle_turns));
-  need(within(circle_radius_m, 0.1, 50),
-       fmt::format("a circle of radius {} m cannot be driven: 0.1 m to 50 m are possible", circle_radius_m));
+  need_within("rounds", rounds, 1, 20,
+              fmt::format("{} rounds cannot be driven: 1 to 20 are possible", rounds));
+  need_within("side_m", side_m, 0.2, 100,
+              fmt::format("a square of side {} m cannot be driven: 0.2 m to 100 m are possible", side_m));
+  need_within("speed_mps", speed_mps, 0.01, 5,
+              fmt::format("a speed of {} m/s cannot be driven: 0.01 to 5 m/s are possible", speed_mps));
+  need_within(
+      "yaw_rate_radps", yaw_rate_radps, 0.05, 20,
+      fmt::format("a yaw rate of {} rad/s cannot be driven: 0.05 to 20 rad/s are possible", yaw_rate_radps));
+  need_within("line_m", line_m, 0.1, 100,
+              fmt::format("a line of {} m cannot be driven: 0.1 m to 100 m are possible", line_m));
+  const std::string turns =
+      fmt::format("{} circles of {} turns cannot be driven: 1 to 100 are possible", circles, circle_turns);
+  need_within("circles", circles, 1, 100, turns);
+  need_within("circle_turns", circle_turns, 1, 100, turns);
+  need_within(
+      "circle_radius_m", circle_radius_m, 0.1, 50,
+      fmt::format("a circle of radius {} m cannot be driven: 0.1 m to 50 m are possible", circle_radius_m));
 }
 
 std::string_view name_of(Order order) {

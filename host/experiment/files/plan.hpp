@@ -13,8 +13,13 @@
 /// What an experiment drives, in which order, and the name of each run.
 namespace astro::experiment {
 
-/// What cannot be driven for a precision. Values: the method or the source of truth.
-enum class PlanProblem { order_of_open_ended, method_without_precision, truth_without_precision };
+/// What cannot be driven, all but the first for a precision.
+enum class PlanProblem {
+  out_of_range,  // values: the name in the file of a plan, and the number
+  order_of_open_ended,
+  method_without_precision,  // value: the method
+  truth_without_precision    // value: the source of truth
+};
 
 /// How the factors are found. automatic: maximum likelihood if all runs were recorded with ground truth along the
 /// way; otherwise the robust fit of end poses.

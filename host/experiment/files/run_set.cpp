@@ -31,11 +31,18 @@ std::string matched(const std::string& wanted, const std::vector<std::string>& n
   std::vector<std::string> matches;
   for (const std::string& name : names)
     if (fs::path(name).filename() == wanted) matches.push_back(name);
+  const auto wanted_and = [&](const std::vector<std::string>& others) {
+    std::vector<std::string> values{wanted};
+    values.insert(values.end(), others.begin(), others.end());
+    return values;
+  };
   if (matches.empty())
     throw Error(fmt::format("there is no recording '{}' in {} to leave out: it holds {}", wanted,
-                            folder.string(), listed(names)));
+                            folder.string(), listed(names)),
+                RunSetProblem::no_such_name, wanted_and(names));
   if (matches.size() > 1)
-    throw Error(fmt::format("'{}' may be {}: name the one to leave out", wanted, fmt::join(matches, " or ")));
+    throw Error(fmt::format("'{}' may be {}: name the one to leave out", wanted, fmt::join(matches, " or ")),
+                RunSetProblem::ambiguous_name, wanted_and(matches));
   return matches.front();
 }
 

@@ -86,14 +86,17 @@ toml::table parse_toml(const std::filesystem::path& path) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (const int line = Nesting(text).exceeds(kMostLevels); line > 0)
     throw Error(fmt::format("'{}' line {} nests more than {} levels deep, which no file of Astrolabe does",
-                            path.string(), line, kMostLevels));
+                            path.string(), line, kMostLevels),
+                TomlProblem::nests_too_deeply, {path.string(), std::to_string(line)});
   if (is_cut_off(text))
-    throw Error(fmt::format("'{}' is cut off: its last line, '# end', is missing", path.string()));
+    throw Error(fmt::format("'{}' is cut off: its last line, '# end', is missing", path.string()),
+                TomlProblem::cut_off, {path.string()});
   try {
     return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("'{}' line {} is not TOML: {}", path.string(), error.source().begin.line,
-                            error.description()));
+    const auto line = error.source().begin.line;
+    throw Error(fmt::format("'{}' line {} is not TOML: {}", path.string(), line, error.description()),
+                TomlProblem::not_toml, {path.string(), std::to_string(line)});
   }
 }
 

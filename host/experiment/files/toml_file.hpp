@@ -6,6 +6,9 @@
 
 namespace astro::experiment {
 
+/// Values: the file and, of all but cut_off, the line.
+enum class TomlProblem { nests_too_deeply, cut_off, not_toml };
+
 /// A file of ours: a first line that says what it is and how it ends, the body, and that end. So a file that was cut off is told
 /// from a whole one, wherever it was cut: half of a number is a number, too.
 std::string toml_file(const std::string& what, const std::string& body);

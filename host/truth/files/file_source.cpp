@@ -38,7 +38,8 @@ std::optional<Column> find(const CsvRow& header, const std::string& si, const st
 double value(const CsvRow& row, const Column& column, const std::string& name) {
   const std::string& cell = row.cells[column.index];
   const auto number = number_in(cell);
-  if (!number || !std::isfinite(*number)) refuse(name, row.line, "'" + cell + "' is no number");
+  if (!number || !std::isfinite(*number))
+    refuse(name, row.line, "'" + cell + "' is no number", TruthFileProblem::not_a_number, {cell});
   return *number * column.scale;
 }
 
@@ -74,7 +75,8 @@ std::vector<double> parts_of(const CsvTable& table, const std::string& name) {
     if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
       refuse(name, row.line,
              "column " + table.header.cells[time->index] +
-                 ": the time does not increase; sort the rows, or leave the column out");
+                 ": the time does not increase; sort the rows, or leave the column out",
+             TruthFileProblem::time_not_increasing);
   }
   const double first = times.front(), last = times.back();
   for (double& one : times) one = (one - first) / (last - first);
@@ -88,7 +90,9 @@ Poses read_poses(const fs::path& path) {
   const auto x = find(table.header, "x_m", "x_mm", 1e-3);
   const auto y = find(table.header, "y_m", "y_mm", 1e-3);
   const auto theta = find(table.header, "theta_rad", "theta_deg", radians(1));
-  if (!x || !y) refuse(name, table.header.line, "columns x_m or x_mm and y_m or y_mm are needed");
+  if (!x || !y)
+    refuse(name, table.header.line, "columns x_m or x_mm and y_m or y_mm are needed",
+           TruthFileProblem::no_position);
   Poses poses;
   for (const CsvRow& row : table.rows) {
     recording::TruthSample pose;
@@ -98,7 +102,8 @@ Poses read_poses(const fs::path& path) {
     poses.rows.push_back(pose);
   }
   if (poses.rows.size() < 2)
-    throw Error("'" + name + "' holds fewer than two poses: the start and the end are needed");
+    throw Error("'" + name + "' holds fewer than two poses: the start and the end are needed",
+                TruthFileProblem::too_few_poses, {name});
   poses.part = parts_of(table, name);
   if (!theta) poses.rows.front().theta_rad = 0;  // the frame is the robot's own at the start
   return poses;

@@ -6,6 +6,10 @@
 
 namespace astro::truth {
 
+/// What is wrong with a file of ground truth. Values: the file; of all but too_few_poses the line, and of
+/// not_a_number the text there.
+enum class TruthFileProblem { no_position, not_a_number, time_not_increasing, too_few_poses };
+
 /// Ground truth that another program recorded: after each run a CSV is read from `folder`; if it is missing,
 /// a person is asked to save it. Its name is the run's ("before-square-cw-1.csv"); its header names the
 /// columns with units:

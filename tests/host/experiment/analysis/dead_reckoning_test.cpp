@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/experiment/drive/experiment.hpp"
+#include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 namespace astro::experiment {
@@ -14,9 +16,7 @@ namespace {
 
 using support::Desk;
 using support::TemporaryFolder;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using support::ThrowsTelling;
 
 /// Two squares of a simulated robot without slip, before and after its calibration.
 class DeadReckonings : public testing::Test {
@@ -54,9 +54,9 @@ TEST_F(DeadReckonings, ByTheFactorsOfAnotherWheelAreRefused) {
   const RunSet unseen = phase("after");
   NominalWheel other = nominal_wheel(unseen.runs.front().info, unseen.names.front());
   other.diameter_m *= 1.01;
-  EXPECT_THAT([&] { factors_of_file(folder_.path() / "calib-before.toml", other); },
-              ThrowsMessage<Error>(
-                  AllOf(HasSubstr("calib-before.toml is for a wheel of"), HasSubstr("recorded with"))));
+  const std::filesystem::path path = folder_.path() / "calib-before.toml";
+  EXPECT_THAT([&] { factors_of_file(path, other); },
+              ThrowsTelling(AnalysisProblem::factors_of_other_wheel, path.string()));
 }
 
 TEST_F(DeadReckonings, TakeEFromTheFileAndNoneWhereItHasNone) {
@@ -71,19 +71,25 @@ TEST_F(DeadReckonings, TakeEFromTheFileAndNoneWhereItHasNone) {
   EXPECT_EQ(factors({}).kappa0, calibration::kUsualKappa0);
   EXPECT_EQ(factors({{"e", -0.02}, {"kappa0", 0.5}}).e, -0.02);
   EXPECT_EQ(factors({{"e", -0.02}, {"kappa0", 0.5}}).kappa0, 0.5);
-  EXPECT_THAT([&] { factors({{"e", 3.0}}); }, ThrowsMessage<Error>(HasSubstr("e = 3, which no robot has")));
+  const std::string name = path.string();
+  EXPECT_THAT([&] { factors({{"e", 3.0}}); }, ThrowsTelling(CurvatureProblem::of_no_robot, name, "e", "3"));
   EXPECT_THAT(
       [&] {
         factors({{"e", std::string("0.02")}});
       },
-      ThrowsMessage<Error>(HasSubstr("e = '0.02', which is text and no number")));
-  EXPECT_THAT([&] { factors({{"kappa0", 0.0}}); }, ThrowsMessage<Error>(HasSubstr("kappa0 = 0")));
+      ThrowsTelling(CurvatureProblem::is_text, name, "e", "0.02"));
+  EXPECT_THAT(
+      [&] {
+        factors({{"kappa0", 0.0}});
+      },
+      ThrowsTelling(CurvatureProblem::of_no_robot, name, "kappa0", "0"));
 }
 
 TEST_F(DeadReckonings, ByAFileWithoutFactorsAreRefused) {
   const auto path = folder_.path() / "other.toml";
   write_parameters(path, {{"c_R", 1.0}, {"b", 0.29}});
-  EXPECT_THAT([&] { factors_of_file(path, {}); }, ThrowsMessage<Error>(HasSubstr("other.toml has no c_L")));
+  EXPECT_THAT([&] { factors_of_file(path, {}); },
+              ThrowsTelling(AnalysisProblem::no_calibration, "c_L", path.string()));
 }
 
 }  // namespace

@@ -11,14 +11,16 @@
 #include <sstream>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
 namespace astro::experiment {
 namespace {
 
+using support::Tells;
+using support::ThrowsTelling;
 using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 struct Pose {
   double x = 0, y = 0, theta = 0;
@@ -93,7 +95,7 @@ TEST(Export, MovesItLikeOursAlsoWhenItsNominalSizesAreOthers) {
 TEST(Export, TakesAGivenRadiusForTheNominalWheelOfAFileThatTellsNone) {
   ParameterFile file = calibrated();
   file.wheel.reset();
-  EXPECT_THAT([&] { diff_drive(file, {}); }, support::ThrowsTelling(testing::_, Help::give_wheel_radius));
+  EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsTelling(AnalysisProblem::no_wheel_radius));
   const DiffDrive ros = diff_drive(file, {kDiameter_m / 2, std::nullopt});
   EXPECT_EQ(ros.left_wheel_radius_multiplier, 0.99792297);
   expect_same_motion(file, ros);
@@ -102,9 +104,9 @@ TEST(Export, TakesAGivenRadiusForTheNominalWheelOfAFileThatTellsNone) {
 TEST(Export, NamesWhatTheFileDoesNotTell) {
   ParameterFile file = calibrated();
   file.loaded.clear();
-  EXPECT_THAT([&] { diff_drive(file, {}); }, support::ThrowsTelling(testing::_, Help::give_wheel_separation));
+  EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsTelling(AnalysisProblem::no_wheel_separation));
   file.parameters.erase("c_L");
-  EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsMessage<Error>(HasSubstr("no c_L")));
+  EXPECT_THAT([&] { diff_drive(file, {}); }, ThrowsTelling(AnalysisProblem::no_calibration, "c_L"));
 }
 
 TEST(Export, TakesTheNamesOfNodesThatRos2Takes) {
@@ -135,9 +137,8 @@ TEST(Export, NamesWhatOneWheelbaseCannotSayOfARobotWithTwo) {
   const DiffDrive ros = diff_drive(file, {});
   EXPECT_NEAR(ros.wheel_separation_multiplier * ros.wheel_separation_m, 0.28861105, 1e-12) << "that of spins";
   const Remark note = single_wheelbase(file, ros).value();
-  EXPECT_THAT(note, support::Tells(HasSubstr("e = 0.03"), Help::set_separation_of_arcs));
-  EXPECT_THAT(note.sentence, HasSubstr("up to 3.0 % too far"));
-  EXPECT_NEAR(std::stod(note.remedy.value), 1.03 * ros.wheel_separation_multiplier, 1e-5);
+  EXPECT_THAT(note, Tells(ExportProblem::second_wheelbase, "0.03", "3.0", "far", testing::_));
+  EXPECT_NEAR(std::stod(note.values.at(3)), 1.03 * ros.wheel_separation_multiplier, 1e-5);
   std::istringstream lines(ros2_yaml(file, ros, "base"));
   std::string comments;
   for (std::string line; std::getline(lines, line) && line != "base:"; comments += line + '\n') {
@@ -146,7 +147,8 @@ TEST(Export, NamesWhatOneWheelbaseCannotSayOfARobotWithTwo) {
   }
   EXPECT_THAT(comments, HasSubstr("knows one wheelbase"));
   file.parameters["e"] = -0.02;
-  EXPECT_THAT(single_wheelbase(file, ros)->sentence, HasSubstr("up to 2.0 % too little"));
+  EXPECT_THAT(single_wheelbase(file, ros).value(),
+              Tells(ExportProblem::second_wheelbase, "-0.02", "2.0", "little", testing::_));
 }
 
 TEST(Export, WritesRosNumbersAsFloatsToTheLastBit) {

@@ -4,16 +4,14 @@
 
 #include <limits>
 
-#include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/recordings.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::experiment {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using support::ThrowsTelling;
 
 recording::Run square() {
   recording::Run run;
@@ -41,7 +39,7 @@ TEST(Squares, RefuseARecordingThatDoesNotSayWhatWasLoaded) {
         [&] {
           squares_of({&run, 1});
         },
-        ThrowsMessage<Error>(AllOf(HasSubstr("square cw 3 (before)"), HasSubstr(name))));
+        ThrowsTelling(AnalysisProblem::run_lacks_parameter, "run square cw 3 (before)", name));
   }
 }
 
@@ -54,7 +52,7 @@ TEST(Squares, RefuseAParameterThatNoRobotCanHave) {
         [&] {
           squares_of({&run, 1});
         },
-        ThrowsMessage<Error>(HasSubstr("does not say which b")))
+        ThrowsTelling(AnalysisProblem::run_lacks_parameter, "run square cw 3 (before)", "b"))
         << value;
   }
 }
@@ -65,8 +63,7 @@ TEST(LoadedFactors, OfAllRunsMayDifferByLessThanTheRobotResolvesAndNoMore) {
   EXPECT_EQ(loaded_in_all(set).c_r, 1.01);
   set.runs[1].info.parameters["c_R"] += 1e-4;
   EXPECT_THAT([&] { loaded_in_all(set); },
-              support::ThrowsTelling("the robot had other factors loaded in two than in one",
-                                     Help::check_each_phase));
+              ThrowsTelling(AnalysisProblem::runs_of_different_factors, "two", "one"));
 }
 
 TEST(Squares, OfRecordingsThatGrowAreCountedAnew) {
@@ -81,7 +78,8 @@ TEST(Squares, OfOneSizeMayDifferByRoundingAndNoMore) {
   runs[1].info.size_m += 1e-9;
   EXPECT_EQ(squares_of(runs).cw.size(), 2U);
   runs[1].info.size_m += 1e-3;
-  EXPECT_THAT([&] { squares_of(runs); }, ThrowsMessage<Error>(HasSubstr("different sides")));
+  EXPECT_THAT([&] { squares_of(runs); },
+              ThrowsTelling(AnalysisProblem::squares_of_different_sizes, "2", "2.001000001"));
 }
 
 }  // namespace

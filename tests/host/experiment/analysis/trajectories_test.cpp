@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/recordings.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/recording/run_file.hpp"
@@ -17,10 +17,8 @@
 namespace astro::experiment {
 namespace {
 
-using testing::AllOf;
+using support::ThrowsTelling;
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 // A run that says all that is needed; its wheel makes 1000 counts a turn.
 recording::Run followed_run() {
@@ -91,20 +89,19 @@ TEST(Trajectories, ATapeMeasureAndAFileOfEndPosesFollowNobody) {
     EXPECT_FALSE(has_moving_truth(run.info)) << source;
   }
   EXPECT_THAT([&] { trajectory_of(run, "line-1"); },
-              support::ThrowsTelling(HasSubstr("'line-1'"), Help::leave_run_out_or_use_end_poses, "line-1"));
+              ThrowsTelling(AnalysisProblem::run_without_truth, "line-1"));
 }
 
 TEST(Trajectories, NameTheRecordingThatCannotBeUsed) {
   recording::Run run = followed_run();
-  EXPECT_THAT([&] { trajectory_of(run, "a/b"); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("'a/b'"), HasSubstr("no odometry"))));
+  EXPECT_THAT([&] { trajectory_of(run, "a/b"); }, ThrowsTelling(AnalysisProblem::no_odometry, "a/b"));
   add_odometry(run, 20'000, 0, 0);
   add_odometry(run, 10'000, 0, 0);
   EXPECT_THAT([&] { trajectory_of(run, "a/b"); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("'a/b'"), HasSubstr("run backwards"))));
+              ThrowsTelling(AnalysisProblem::times_run_backwards, "a/b", "odometry"));
   run.info.parameters.erase("wheel_diameter");
   EXPECT_THAT([&] { trajectory_of(run, "a/b"); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("'a/b'"), HasSubstr("wheel_diameter"))));
+              ThrowsTelling(AnalysisProblem::file_lacks_parameter, "a/b", "wheel_diameter"));
 }
 
 TEST(Recordings, ConvertTheirCountsOnceAndKeepWhatTheyGave) {
@@ -113,7 +110,7 @@ TEST(Recordings, ConvertTheirCountsOnceAndKeepWhatTheyGave) {
   const Recordings recordings(RunSet{{"one", "two"}, {run, run}});
   EXPECT_EQ(recordings.trajectories().size(), 2U);
   EXPECT_EQ(recordings.trajectories().data(), recordings.trajectories().data());
-  EXPECT_THROW((void)recordings.squares(), Error) << "none of them is a square";
+  EXPECT_THAT([&] { (void)recordings.squares(); }, ThrowsTelling(AnalysisProblem::no_squares));
 }
 
 TEST(Recordings, ThatAreAddedToConvertTheNewRunsOnly) {
@@ -138,10 +135,11 @@ TEST(Trajectories, RefuseRunsWhoseFactorsWouldReferToDifferentThings) {
   EXPECT_EQ(trajectories_of(set).size(), 2U) << "other factors are no reason: they are not used";
   set.runs[1].info.parameters["wheel_diameter"] = 0.11;
   EXPECT_THAT([&] { trajectories_of(set); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("'one' and 'two'"), HasSubstr("wheel diameters"))));
+              ThrowsTelling(AnalysisProblem::runs_of_different_wheels, "one", "two"));
   set.runs[1] = run;
   set.runs[1].info.robot_id = "b";
-  EXPECT_THAT([&] { trajectories_of(set); }, ThrowsMessage<Error>(HasSubstr("different robots")));
+  EXPECT_THAT([&] { trajectories_of(set); },
+              ThrowsTelling(AnalysisProblem::runs_of_different_robots, "one", "two"));
 }
 
 class RunSets : public testing::Test {
@@ -172,9 +170,10 @@ TEST_F(RunSets, LeaveOutByPathAndByNameWhereThatIsClear) {
 
 TEST_F(RunSets, RefuseNamesThatNobodyOrMoreThanOneHas) {
   EXPECT_THAT([&] { names({"square-ccw-1"}); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("'square-ccw-1'"), HasSubstr("line-1"))));
-  EXPECT_THAT([&] { names({"square-cw-1"}); },
-              ThrowsMessage<Error>(HasSubstr("after/square-cw-1 or before/square-cw-1")));
+              ThrowsTelling(RunSetProblem::no_such_name, "square-ccw-1", "after/square-cw-1",
+                            "before/square-cw-1", "before/square-cw-2", "before/square-cw-10", "line-1"));
+  EXPECT_THAT([&] { names({"square-cw-1"}); }, ThrowsTelling(RunSetProblem::ambiguous_name, "square-cw-1",
+                                                             "after/square-cw-1", "before/square-cw-1"));
 }
 
 TEST(Trajectories, AreOfTheSessionsThatTheirSetNames) {

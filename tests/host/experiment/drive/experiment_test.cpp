@@ -10,6 +10,7 @@
 #include "host/experiment/analysis/dead_reckoning.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/report_input.hpp"
+#include "host/experiment/drive/open_journal.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
 #include "host/experiment/files/method_names.hpp"
@@ -27,9 +28,7 @@ using support::Desk;
 using support::kThesisSlip_m;
 using support::TemporaryFolder;
 using support::thesis_robot;
-using testing::AllOf;
 using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 Plan squares_only(int runs, int rounds = 1) {
   Plan plan;
@@ -175,7 +174,9 @@ TEST(Experiment, FactorsThatAreWorseOnUnseenDrivesAreNotLoaded) {
               HasSubstr("Worse than what the robot carries"));
   EXPECT_THAT(report_input(results).notes,
               testing::Contains(testing::AllOf(HasSubstr("was not loaded"), HasSubstr("Worse than"))));
-  EXPECT_THAT(notices, testing::Contains(support::Tells(HasSubstr("calib-before.toml"), Help::look_at_runs)));
+  EXPECT_THAT(notices, testing::Contains(support::Tells(ExperimentProblem::parameters_kept,
+                                                        (folder.path() / "before").string(),
+                                                        (folder.path() / "calib-before.toml").string())));
   const robot::RemoteParameters after = robot::RemoteParameters::fetch(desk.client);
   EXPECT_NEAR(std::get<double>(after.value("c_R")), c_large, 1e-8);
 }
@@ -299,7 +300,8 @@ TEST(Experiment, UploadsOnlyWhatIsAgreedTo) {
   const TemporaryFolder folder;
   ExperimentHooks hooks;
   hooks.decide = [](const Calibration&, const std::vector<Change>&) { return Decision::later; };
-  EXPECT_THROW(run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks), Error);
+  EXPECT_THAT([&] { run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks); },
+              support::ThrowsTelling(ExperimentProblem::not_uploaded, folder.path().string()));
   EXPECT_EQ(std::get<double>(robot::RemoteParameters::fetch(desk.client).value("c_R")), 1.0);
 }
 
@@ -312,7 +314,7 @@ TEST(Experiment, UploadsWhatIsObjectedToOnlyIfToldTo) {
     return run_experiment(desk.client, desk.truth, squares_only(1), folder.path(), hooks);
   };
   EXPECT_THAT([&] { experiment({}); },
-              support::ThrowsTelling(HasSubstr("b would change by"), Help::check_units_or_override));
+              support::ThrowsTelling(UploadProblem::suspicious, "b", testing::StartsWith("+1")));
   ExperimentHooks hooks;
   hooks.force = true;
   EXPECT_NEAR(experiment(hooks).after().squares().loaded.b_m, 0.33, 0.001);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/until.hpp"
 #include "host/experiment/drive/experiment.hpp"
@@ -14,6 +15,7 @@
 #include "host/experiment/files/method_names.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // Experiments with maximum likelihood, the default where cameras follow the robot.
@@ -23,10 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 using support::Desk;
 using support::kThesisSlip_m;
+using support::Tells;
 using support::TemporaryFolder;
 using support::thesis_robot;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using support::ThrowsTelling;
+using testing::_;
+using testing::Contains;
+using testing::StartsWith;
 
 Plan small_plan(int runs, int rounds = 1) {
   Plan plan;
@@ -41,7 +46,7 @@ Plan small_plan(int runs, int rounds = 1) {
 class MlExperiment : public testing::Test {
  protected:
   MlExperiment() : config_(scaled_robot()), desk_(config_) {
-    hooks_.run.notice = [this](const Remark& remark) { notices_ += remark.sentence + '\n'; };
+    hooks_.run.notice = [this](const Remark& remark) { notices_.push_back(remark); };
     hooks_.run_started = [this](const RunSpec& spec, int, int) { driven_.push_back(spec.title()); };
   }
 
@@ -66,7 +71,7 @@ class MlExperiment : public testing::Test {
   TemporaryFolder folder_;
   ExperimentHooks hooks_;
   std::vector<std::string> driven_;
-  std::string notices_;
+  std::vector<Remark> notices_;
 };
 
 TEST_F(MlExperiment, IsWhatHappensWhereCamerasFollowTheRobot) {
@@ -123,7 +128,7 @@ TEST_F(MlExperiment, RunsWithDifferentFactorsInForceAreCalibratedTogether) {
               4 * together.ml()->estimate.se.E_d);
   EXPECT_FALSE(together.squares.has_value()) << "squares of two sets of factors have no common error";
   EXPECT_THAT([&] { calibrate(all, method_named("extended", "average", "exact")); },
-              ThrowsMessage<Error>(HasSubstr("different c_R, c_L or b")));
+              ThrowsTelling(AnalysisProblem::squares_of_different_factors));
 }
 
 TEST_F(MlExperiment, TakesGivenNoiseAndAnUnknownClock) {
@@ -148,7 +153,7 @@ TEST_F(MlExperiment, FallsBackToEndPosesWhereOneRunWasOnlyMeasuredAtItsEnds) {
   set.runs.front().info.truth_source = "manual";
   EXPECT_EQ(calibrate(set, {}).method(), "robust");
   EXPECT_THAT([&] { calibrate(set, method_named("ml", "average", "exact")); },
-              ThrowsMessage<Error>(HasSubstr(set.names.front())));
+              ThrowsTelling(AnalysisProblem::run_without_truth, set.names.front()));
 }
 
 Plan until_plan(double target, int most) {
@@ -162,7 +167,7 @@ TEST_F(MlExperiment, DrivesUntilThePrecisionIsReachedAndNoFurther) {
   constexpr double kTarget = 4e-4;
   const Results results = run(until_plan(kTarget, 20));
   const Calibration& found = *results.before().calibration;
-  fmt::print("{}", notices_);
+  for (const Remark& notice : notices_) fmt::print("{}\n", notice.sentence);
   EXPECT_TRUE(reaches(precision_of(found), kTarget));
   const std::int64_t squares = driven_in("before") / 2;
   EXPECT_GT(squares, kFewestPairs);
@@ -175,21 +180,22 @@ TEST_F(MlExperiment, DrivesUntilThePrecisionIsReachedAndNoFurther) {
 
 TEST_F(MlExperiment, ReadsEachRecordingOnceHoweverManyPairsFollow) {
   hooks_.run.notice = [this](const Remark& remark) {
-    notices_ += remark.sentence + '\n';
-    if (!remark.sentence.starts_with("before: 2 + 2 squares give")) return;
+    notices_.push_back(remark);
+    if (!testing::Matches(Tells(PrecisionNotice::reached_by_now, "before", "2", _))(remark)) return;
     // They were read for this figure. Whoever reads them again finds no recording.
     for (const char* name :
          {"square-cw-1.mcap", "square-ccw-1.mcap", "square-cw-2.mcap", "square-ccw-2.mcap"})
       std::ofstream(folder_.path() / "before" / name) << "no recording";
   };
   const Results results = run(until_plan(1e-5, 3));
-  EXPECT_THAT(notices_, HasSubstr("before: 3 + 3 squares give E_d ± "));
+  EXPECT_THAT(notices_,
+              Contains(Tells(PrecisionNotice::reached_by_now, "before", "3", StartsWith("E_d ± "))));
   EXPECT_EQ(results.before().calibration->ml()->estimate.runs.size(), 6U);
 }
 
 TEST_F(MlExperiment, ReadsAgainIfARecordingWasTakenAwayToBeDrivenAgain) {
   hooks_.run.notice = [this](const Remark& remark) {
-    if (remark.sentence.starts_with("before: 2 + 2 squares give"))
+    if (testing::Matches(Tells(PrecisionNotice::reached_by_now, "before", "2", _))(remark))
       fs::remove(folder_.path() / "before" / "square-cw-1.mcap");
   };
   const Results results = run(until_plan(1e-5, 3));
@@ -203,8 +209,9 @@ TEST_F(MlExperiment, ReadsAgainIfARecordingWasTakenAwayToBeDrivenAgain) {
 TEST_F(MlExperiment, SaysWhatWasReachedWhenTheMostSquaresAreDriven) {
   const Results results = run(until_plan(1e-5, 3));
   EXPECT_EQ(driven_in("before"), 6);
-  EXPECT_THAT(notices_, HasSubstr("before: 3 + 3 squares give E_d ± "));
-  EXPECT_THAT(notices_, HasSubstr("not the 0.001 % asked for"));
+  EXPECT_THAT(notices_,
+              Contains(Tells(PrecisionNotice::reached_by_now, "before", "3", StartsWith("E_d ± "))));
+  EXPECT_THAT(notices_, Contains(Tells(PrecisionNotice::most_squares, "before", "3", "0.001")));
   EXPECT_EQ(results.phases.size(), 2U);
 }
 

@@ -7,6 +7,7 @@
 #include "host/recording/run_file.hpp"
 #include "host/recording/run_writer.hpp"
 #include "tests/support/base/bounded.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // Recording what somebody else drives: to the disk as it comes, in memory that does not grow.
@@ -16,6 +17,8 @@ namespace {
 using namespace std::chrono_literals;
 using support::Desk;
 using support::TemporaryFolder;
+
+enum class SinkProblem { full };
 
 std::size_t bytes_in_use() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 
@@ -94,12 +97,12 @@ TEST_F(Streaming, AFullDiskIsToldAsThatAndNotAsALostLink) {
   const auto record = [&] {
     record_until(desk_.client, desk_.truth,
                  {[&](const auto&) {
-                    if (++samples == 100) throw Error("the disk is full");
+                    if (++samples == 100) throw Error("the disk is full", SinkProblem::full);
                   },
                   [](const auto&) {}},
                  [] { return false; });
   };
-  EXPECT_THAT(record, testing::ThrowsMessage<Error>("the disk is full"));
+  EXPECT_THAT(record, support::ThrowsTelling(SinkProblem::full));
   EXPECT_EQ(samples, 100) << "nothing is handed to what has failed";
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "host/experiment/analysis/report_input.hpp"
+#include "host/experiment/drive/open_journal.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "host/truth/source/manual_source.hpp"
@@ -18,11 +19,15 @@ namespace {
 
 namespace fs = std::filesystem;
 using support::Desk;
+using support::Tells;
 using support::TemporaryFolder;
 using support::thesis_robot;
+using support::ThrowsTelling;
 using testing::HasSubstr;
-using testing::Property;
-using testing::ThrowsMessage;
+
+enum class Mishap { tracker_gone };
+
+std::string no_answer(const truth::Question&) { throw Error("nobody is there"); }
 
 Plan small_plan() {
   Plan plan;
@@ -86,8 +91,7 @@ TEST_F(Resume, AStopThatComesBetweenTwoRunsEndsTheExperimentWhichGoesOnWhenItIsS
   hooks.run_started = [&](const RunSpec&, int, int) {
     if (++started == 2) person.request(protocol::Stop{});
   };
-  EXPECT_THAT([&] { run(small_plan(), hooks); },
-              ThrowsMessage<Error>(HasSubstr("another program has stopped the robot")));
+  EXPECT_THAT([&] { run(small_plan(), hooks); }, ThrowsTelling(robot::DriveProblem::stopped_by_another));
   EXPECT_EQ(started, 2);
   EXPECT_EQ(desk_.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
   desk_.client.connect();  // as the next program does
@@ -123,23 +127,27 @@ class BreakingLine : public robot::Transport {
   bool plugged_in_ = false;
 };
 
+enum class Event { drives, asks_about };
+
 /// An experiment whose line breaks when the second run has begun. `put_back`: whether somebody puts the robot back;
 /// `interrupted`: whether somebody interrupts it at that moment.
-std::vector<std::string> driven_over_a_line_that_breaks(const fs::path& folder, bool put_back,
-                                                        bool interrupted = false) {
+std::vector<Remark> driven_over_a_line_that_breaks(const fs::path& folder, bool put_back,
+                                                   bool interrupted = false) {
   Desk desk(thesis_robot(0, 1));
   bool breaks = false;
   robot::Client client(
       std::make_unique<BreakingLine>(std::make_unique<simulation::InProcessTransport>(desk.robot), breaks));
   client.connect();
-  std::vector<std::string> events;
+  std::vector<Remark> events;
   ExperimentHooks hooks;
-  hooks.run_started = [&](const RunSpec& spec, int, int) { events.push_back("drives " + spec.title()); };
+  hooks.run_started = [&](const RunSpec& spec, int, int) {
+    events.push_back({"", Event::drives, {spec.title()}});
+  };
   hooks.run.segment_done = [&](std::uint16_t) { breaks = events.size() > 1; };
   hooks.run.interrupted = [&] { return breaks && interrupted; };
-  hooks.run.notice = [&](const Remark& remark) { events.push_back(remark.sentence); };
+  hooks.run.notice = [&](const Remark& remark) { events.push_back(remark); };
   hooks.put_back = [&](const RunSpec& spec) {
-    events.push_back("asks about " + spec.title());
+    events.push_back({"", Event::asks_about, {spec.title()}});
     const auto two_seconds_later = desk.robot->board().world_us() + 2'000'000;
     while (desk.robot->board().world_us() < two_seconds_later)
       desk.robot->step();  // it stops for want of commands
@@ -148,30 +156,33 @@ std::vector<std::string> driven_over_a_line_that_breaks(const fs::path& folder, 
   try {
     run_experiment(client, desk.truth, small_plan(), folder, hooks);
   } catch (const Error& error) {
-    events.push_back(error.what());
+    events.push_back(error.remark());
   }
   return events;
 }
 
 TEST_F(Resume, AfterALostLinkTheRobotDoesNotDriveBeforeSomebodyHasPutItBack) {
-  const std::vector<std::string> events = driven_over_a_line_that_breaks(folder_.path(), false);
-  EXPECT_THAT(events, testing::ElementsAre("drives before: square cw 1", "drives before: square ccw 1",
-                                           HasSubstr("may still be moving"), "the cable was pulled",
-                                           "asks about before: square ccw 1",
-                                           HasSubstr("before: square ccw 1 was broken off")));
+  const char* second = "before: square ccw 1";
+  const auto cable_pulled = testing::Field("sentence", &Remark::sentence, "the cable was pulled");
+  EXPECT_THAT(driven_over_a_line_that_breaks(folder_.path(), false),
+              testing::ElementsAre(Tells(Event::drives, "before: square cw 1"), Tells(Event::drives, second),
+                                   Tells(robot::DriveProblem::stop_unconfirmed), cable_pulled,
+                                   Tells(Event::asks_about, second),
+                                   Tells(ExperimentProblem::broken_off, folder_.path().string(), second)));
 }
 
 TEST_F(Resume, ARunWhoseLinkWasLostIsDrivenAgainOnceTheRobotIsPutBack) {
-  const std::vector<std::string> events = driven_over_a_line_that_breaks(folder_.path(), true);
+  const std::vector<Remark> events = driven_over_a_line_that_breaks(folder_.path(), true);
   ASSERT_GE(events.size(), 7U);
-  EXPECT_EQ(events[4], "asks about before: square ccw 1");
-  EXPECT_EQ(events.back(), "drives after: square ccw 1");
+  EXPECT_THAT(events[4], Tells(Event::asks_about, "before: square ccw 1"));
+  EXPECT_THAT(events.back(), Tells(Event::drives, "after: square ccw 1"));
 }
 
 TEST_F(Resume, InterruptedOnceTheLinkIsLostItAsksNobodyAndDoesNotSayThatTheRobotStands) {
-  const std::vector<std::string> events = driven_over_a_line_that_breaks(folder_.path(), true, true);
-  EXPECT_THAT(events, testing::ElementsAre("drives before: square cw 1", "drives before: square ccw 1",
-                                           HasSubstr("may still be moving")));
+  EXPECT_THAT(driven_over_a_line_that_breaks(folder_.path(), true, true),
+              testing::ElementsAre(Tells(Event::drives, "before: square cw 1"),
+                                   Tells(Event::drives, "before: square ccw 1"),
+                                   Tells(robot::DriveProblem::stop_unconfirmed)));
 }
 
 /// Ground truth of a simulator that ends in the middle of a run.
@@ -179,7 +190,7 @@ class TruthThatEnds : public truth::Source {
  public:
   explicit TruthThatEnds(truth::Source& truth) : truth_(truth) {}
   std::vector<recording::TruthSample> poll() override {
-    if (ended) throw Error("the tracker is gone");
+    if (ended) throw Error("the tracker is gone", Mishap::tracker_gone);
     return truth_.poll();
   }
   std::string name() const override { return truth_.name(); }
@@ -200,12 +211,10 @@ TEST_F(Resume, AfterALostTruthItSaysThatTheRobotStandsOnItsWay) {
     hooks.run.segment_done = [&](std::uint16_t) { truth.ended = true; };
     hooks.run.notice = [&](const Remark& notice) { notices.push_back(notice); };
     EXPECT_THAT([&] { run_experiment(desk_.client, truth, small_plan(), folder_.path(), hooks); },
-                testing::ThrowsMessage<Error>(HasSubstr("the tracker is gone")));
-    const bool told = std::ranges::any_of(notices, [](const Remark& notice) {
-      return notice.sentence == "before: square cw 1 was broken off, and the robot stands on its way" &&
-             notice.remedy.help == Help::put_back_and_resume;
-    });
-    EXPECT_EQ(told, on_the_way);
+                ThrowsTelling(Mishap::tracker_gone));
+    const auto broken_off =
+        Tells(ExperimentProblem::broken_off, folder_.path().string(), "before: square cw 1");
+    EXPECT_EQ(std::ranges::any_of(notices, testing::Matches(broken_off)), on_the_way);
   }
 }
 
@@ -225,10 +234,10 @@ TEST_F(Resume, ADriveOutlivesAPersonWhoWalksAwayFromTheTapeMeasure) {
   int driven = 0;
   ExperimentHooks hooks;
   hooks.run_started = [&](const RunSpec&, int, int) { ++driven; };
-  truth::ManualSource nobody([](const truth::Question&) -> std::string { throw Error("nobody is there"); });
+  truth::ManualSource nobody(no_answer);
   for (int session = 0; session < 2; ++session)
     EXPECT_THAT([&] { run_experiment(desk_.client, nobody, plan, folder_.path(), hooks); },
-                support::ThrowsTelling("nobody is there; the drive is kept", Help::resume_for_truth));
+                ThrowsTelling(ExperimentProblem::truth_missing, "nobody is there"));
   EXPECT_EQ(driven, 1);
 
   truth::ManualSource person([](const truth::Question&) { return "10"; });
@@ -370,7 +379,8 @@ TEST_F(Resume, TheLastRunIsCorrectedOrDrivenAgainBeforeTheNext) {
   hooks.decide = [](const auto&, const auto&) { return Decision::later; };
   hooks.run_started = [&](const RunSpec& spec, int, int) { driven.push_back(spec.title()); };
   truth::ManualSource source(std::ref(person));
-  EXPECT_THROW(run_experiment(desk_.client, source, plan, folder_.path(), hooks), Error);
+  EXPECT_THAT([&] { run_experiment(desk_.client, source, plan, folder_.path(), hooks); },
+              ThrowsTelling(ExperimentProblem::not_uploaded, folder_.path().string()));
   EXPECT_EQ(driven,
             (std::vector<std::string>{"before: square cw 1", "before: square cw 1", "before: square ccw 1",
                                       "before: square cw 2", "before: square ccw 2"}));
@@ -406,21 +416,21 @@ TEST_F(Resume, RefusesOtherSettings) {
   interrupt_in_run(2);
   Plan other = small_plan();
   other.side_m = 2;
-  EXPECT_THAT([&] { run(other); }, ThrowsMessage<Error>(HasSubstr("other settings")));
+  EXPECT_THAT([&] { run(other); }, ThrowsTelling(ExperimentProblem::other_settings, folder_.path().string()));
 }
 
 TEST_F(Resume, RefusesAnotherRobot) {
   interrupt_in_run(2);
   Desk other(thesis_robot(0, 2));
   EXPECT_THAT([&] { run_experiment(other.client, other.truth, small_plan(), folder_.path(), {}); },
-              support::ThrowsTelling(HasSubstr("is of robot"), Help::choose_other_out_folder));
+              ThrowsTelling(ExperimentProblem::other_robot, folder_.path().string()));
 }
 
 TEST_F(Resume, RefusesARobotWhoseParametersChangedInTheMiddleOfAPhase) {
   interrupt_in_run(2);
   robot::upload(desk_.client, {{"c_R", 1.001}});
-  EXPECT_THAT([&] { run(small_plan()); },
-              ThrowsMessage<Error>(HasSubstr("phase 'before' of this experiment began")));
+  EXPECT_THAT([&] { run(small_plan()); }, ThrowsTelling(ExperimentProblem::other_factors_loaded, "before",
+                                                        HasSubstr("c_R 1.001"), HasSubstr("c_R 1.000")));
 }
 
 /// Squares hardly show an e, so the calibration between the phases has none.
@@ -441,9 +451,8 @@ TEST_F(Resume, RefusesARobotWhoseEChangedInTheMiddleOfAPhase) {
   interrupt_in_run(2);
   robot::upload(desk_.client, {{"e", 0.02}});
   EXPECT_THAT([&] { run(small_plan()); },
-              support::ThrowsTelling(
-                  testing::ContainsRegex("the robot holds .* e 0.02.*, but phase 'before' .* began with"),
-                  Help::load_factors_or_choose_other_out_folder));
+              ThrowsTelling(ExperimentProblem::other_factors_loaded, "before", HasSubstr(" e 0.02"),
+                            testing::Not(HasSubstr(" e "))));
 }
 
 TEST_F(Resume, AnExperimentFromBeforeThereWasAnEGoesOnWithoutOne) {
@@ -457,7 +466,8 @@ TEST_F(Resume, AnExperimentFromBeforeThereWasAnEIsRefusedIfTheRobotHoldsOneByNow
   test::make_older_than_e(folder_.path());
   robot::upload(desk_.client, {{"e", 0.02}});
   EXPECT_THAT([&] { run(small_plan()); },
-              support::ThrowsTelling(HasSubstr("e 0.02"), Help::load_factors_or_choose_other_out_folder));
+              ThrowsTelling(ExperimentProblem::other_factors_loaded, "before", HasSubstr(" e 0.02"),
+                            testing::Not(HasSubstr(" e "))));
 }
 
 /// What can have happened to a recording between two sessions.
@@ -479,14 +489,14 @@ void harm(const fs::path& file, Harm how, const fs::path& other) {
 class HarmedRecording : public Resume {
  protected:
   /// Goes on, and expects that this is refused without a metre driven or a parameter changed.
-  void expect_refused(const std::string& named, Help help) {
+  void expect_refused(const fs::path& recording, ExperimentProblem problem) {
     const auto factors = [&] { return loaded_in_robot(); };
     const auto before = factors();
     ExperimentHooks hooks;
     hooks.run_started = [](const RunSpec& spec, int, int) { ADD_FAILURE() << "drives " << spec.title(); };
     hooks.uploaded = [](const Remark& remark) { ADD_FAILURE() << remark.sentence; };
     for (int session = 0; session < 2; ++session)
-      EXPECT_THAT([&] { run(small_plan(), hooks); }, support::ThrowsTelling(HasSubstr(named), help));
+      EXPECT_THAT([&] { run(small_plan(), hooks); }, ThrowsTelling(problem, recording.string()));
     EXPECT_EQ(factors(), before);
   }
   std::map<std::string, double> loaded_in_robot() {
@@ -502,7 +512,8 @@ TEST_F(HarmedRecording, OfThePhaseUnderWayIsNamedBeforeTheRobotDrives) {
     SCOPED_TRACE(static_cast<int>(how));
     fs::copy_file(whole, first, fs::copy_options::overwrite_existing);
     harm(first, how, {});
-    expect_refused("before/square-cw-1.mcap", Help::drive_run_again);
+    expect_refused(first, how == Harm::cut ? ExperimentProblem::recording_cut_off
+                                           : ExperimentProblem::recording_unusable);
   }
   fs::remove(first);
   EXPECT_EQ(run(small_plan()).phases.size(), 2U) << "what was removed is driven again";
@@ -517,7 +528,7 @@ TEST_F(HarmedRecording, OfAPhaseThatIsOverIsNamedBeforeTheRobotDrives) {
     SCOPED_TRACE(static_cast<int>(how));
     fs::copy_file(whole, first, fs::copy_options::overwrite_existing);
     harm(first, how, folder_.path() / "before" / "square-ccw-1.mcap");
-    expect_refused("before/square-cw-1.mcap", Help::choose_other_out_folder);
+    expect_refused(first, ExperimentProblem::cannot_go_on);
   }
   fs::copy_file(whole, first, fs::copy_options::overwrite_existing);
   EXPECT_EQ(run(small_plan()).phases.size(), 2U);
@@ -526,16 +537,17 @@ TEST_F(HarmedRecording, OfAPhaseThatIsOverIsNamedBeforeTheRobotDrives) {
 TEST_F(HarmedRecording, OfTheDriveWhoseTruthIsMissingIsNamedBeforeAnybodyIsAsked) {
   Plan plan = small_plan();
   plan.truth = "manual";
-  truth::ManualSource nobody([](const truth::Question&) -> std::string { throw Error("nobody is there"); });
-  EXPECT_THROW(run_experiment(desk_.client, nobody, plan, folder_.path(), {}), Error);
-  harm(folder_.path() / "before" / "square-cw-1.mcap.no-truth", Harm::cut, {});
+  truth::ManualSource nobody(no_answer);
+  EXPECT_THAT([&] { run_experiment(desk_.client, nobody, plan, folder_.path(), {}); },
+              ThrowsTelling(ExperimentProblem::truth_missing, "nobody is there"));
+  const fs::path drive = folder_.path() / "before" / "square-cw-1.mcap.no-truth";
+  harm(drive, Harm::cut, {});
   truth::ManualSource person([](const truth::Question& question) {
     ADD_FAILURE() << question.text;
     return "10";
   });
-  EXPECT_THAT(
-      [&] { run_experiment(desk_.client, person, plan, folder_.path(), {}); },
-      support::ThrowsTelling(HasSubstr("square-cw-1.mcap.no-truth was cut off"), Help::drive_run_again));
+  EXPECT_THAT([&] { run_experiment(desk_.client, person, plan, folder_.path(), {}); },
+              ThrowsTelling(ExperimentProblem::recording_cut_off, drive.string()));
 }
 
 /// Ground truth that loses the robot in the first run.
@@ -556,16 +568,17 @@ TEST_F(Resume, ASquareWhoseEndTheTrackerDidNotSeeIsNamedBeforeTheNextIsDriven) {
   ExperimentHooks hooks;
   hooks.run_started = [&](const RunSpec&, int, int) { ++driven; };
   hooks.run.segment_done = [&](std::uint16_t) { truth.lost = true; };
-  EXPECT_THAT(
-      [&] { run_experiment(desk_.client, truth, small_plan(), folder_.path(), hooks); },
-      support::ThrowsTelling(HasSubstr("before/square-cw-1.mcap cannot be used"), Help::drive_run_again));
+  EXPECT_THAT([&] { run_experiment(desk_.client, truth, small_plan(), folder_.path(), hooks); },
+              ThrowsTelling(ExperimentProblem::recording_unusable,
+                            (folder_.path() / "before" / "square-cw-1.mcap").string()));
   EXPECT_EQ(driven, 1);
 }
 
 TEST_F(Resume, SaysThatADamagedJournalCannotBeResumed) {
   interrupt_in_run(2);
   std::ofstream(folder_.path() / "experiment.json") << "{";
-  EXPECT_THAT([&] { run(small_plan()); }, ThrowsMessage<Error>(HasSubstr("experiment.json' is damaged")));
+  EXPECT_THAT([&] { run(small_plan()); },
+              ThrowsTelling(JournalProblem::damaged, (folder_.path() / "experiment.json").string()));
 }
 
 }  // namespace

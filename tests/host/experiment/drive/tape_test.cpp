@@ -6,7 +6,9 @@
 
 #include "host/base/pose2.hpp"
 #include "host/base/text/degrees.hpp"
+#include "host/experiment/drive/open_journal.hpp"
 #include "host/truth/source/manual_source.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/base/thorough.hpp"
 #include "tests/support/robots/desk.hpp"
 
@@ -114,7 +116,8 @@ Outcome calibrate(std::uint64_t seed, const Mistakes& mistakes, bool attentive =
   };
   hooks.force = true;
   truth::ManualSource tape([&](const truth::Question& question) { return person.answer(question); });
-  EXPECT_THROW(run_experiment(desk.client, tape, plan, folder.path(), hooks), Error);
+  EXPECT_THAT([&] { run_experiment(desk.client, tape, plan, folder.path(), hooks); },
+              support::ThrowsTelling(ExperimentProblem::not_uploaded, folder.path().string()));
   outcome.asked = person.asked;
   outcome.caught = person.caught;
   return outcome;

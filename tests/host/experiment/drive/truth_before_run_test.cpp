@@ -5,6 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/drive/record_run.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // A drive without its ground truth is lost, and a robot should not drive for nothing.
@@ -12,6 +13,8 @@ namespace astro::experiment {
 namespace {
 
 using support::Desk;
+
+enum class CameraProblem { none_comes };
 
 /// The desk's cameras, with something that happens before each run.
 class WatchedTruth : public truth::Source {
@@ -49,8 +52,8 @@ TEST(TruthBeforeARun, ThatDoesNotComeKeepsTheRobotFromDriving) {
   Desk desk{sim::Config{}};
   bool started = false;
   const auto watch = desk.client.on<protocol::SegmentStarted>([&](const auto&) { started = true; });
-  WatchedTruth truth(desk, [] { throw Error("no ground truth comes"); });
-  EXPECT_THROW(record_line(desk, truth), Error);
+  WatchedTruth truth(desk, [] { throw Error("no ground truth comes", CameraProblem::none_comes); });
+  EXPECT_THAT([&] { record_line(desk, truth); }, support::ThrowsTelling(CameraProblem::none_comes));
   desk.client.pump(std::chrono::seconds(1));
   EXPECT_FALSE(started);
   EXPECT_EQ(mode_of(desk), protocol::Mode::disarmed);

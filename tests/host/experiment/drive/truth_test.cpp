@@ -11,6 +11,7 @@
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/source/manual_source.hpp"
 #include "tests/support/base/person.hpp"
+#include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // Ground truth that is only known after a run ends up as that run's end error, exactly.
@@ -19,7 +20,9 @@ namespace {
 
 using support::Desk;
 using support::Person;
+using support::Tells;
 using testing::HasSubstr;
+using truth::TruthFileProblem;
 
 recording::Run drive_line(Desk& desk, truth::Source& source, const std::string& started_at = "") {
   recording::RunInfo info;
@@ -135,10 +138,10 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
   const std::filesystem::path file = folder_.path() / "before-line-1.csv";
   const std::vector<std::string> texts{"", "x,y\n0,0\n1,1\n", "x_m,y_m\n0,0\n", "x_m,y_m\n0,0\nnan,0\n",
                                        "x_m,y_m\n0,0\n0.5,0\n"};
-  std::vector<std::string> asked;
+  std::vector<truth::Question> asked;
   std::vector<truth::AnswerKind> answers;
   truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
-    asked.push_back(question.occasion.sentence + question.text);
+    asked.push_back(question);
     answers.push_back(question.answer);
     std::ofstream(file) << texts.at(asked.size());
     return "";
@@ -147,11 +150,12 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
   EXPECT_NEAR(recording::end_error(run_).x_m, 0.5 - run_.odometry.back().x_m, 1e-6)
       << "without headings the frame is that of the start";
   ASSERT_EQ(asked.size(), 4U);
-  EXPECT_THAT(asked[0], testing::StartsWith("the ground truth of this run belongs into '" + file.string()));
-  EXPECT_THAT(asked[1], testing::AllOf(HasSubstr("before-line-1.csv"), HasSubstr("x_m or x_mm"),
-                                       testing::Not(HasSubstr("Enter"))));
-  EXPECT_THAT(asked[2], HasSubstr("fewer than two poses"));
-  EXPECT_THAT(asked[3], HasSubstr("line 3"));
+  EXPECT_THAT(asked[0].text,
+              testing::StartsWith("the ground truth of this run belongs into '" + file.string()));
+  EXPECT_THAT(asked[1].occasion, Tells(TruthFileProblem::no_position, file.string(), "1"));
+  EXPECT_THAT(asked[2].occasion, Tells(TruthFileProblem::too_few_poses, file.string()));
+  EXPECT_THAT(asked[3].occasion, Tells(TruthFileProblem::not_a_number, file.string(), "3", "nan"));
+  for (int i : {1, 2, 3}) EXPECT_EQ(asked[i].text, "") << "the error says it all, and no key";
   using enum truth::AnswerKind;
   EXPECT_THAT(answers, testing::ElementsAre(file_saved, file_corrected, file_corrected, file_corrected));
 }
@@ -180,18 +184,18 @@ TEST_F(FileTruth, RefusesTimesThatAreNoneAndAnEndThatIsHardlyThatOfTheRun) {
                                        "t,x_m,y_m\n0,0,0\nnoon,0.1,0\n2,0.5,0\n", "x_m,y_m\n0,0\n1000,0\n",
                                        "x_m,y_m\n0,0\n0.5,0\n"};
   std::ofstream(file) << texts[0];
-  std::vector<std::string> asked;
+  std::vector<truth::Question> asked;
   truth::FileSource source(folder_.path(), [&](const truth::Question& question) -> std::string {
-    asked.push_back(question.occasion.sentence + question.text);
+    asked.push_back(question);
     std::ofstream(file) << texts.at(asked.size());
     return "";
   });
   run_ = drive_line(desk_, source);
   EXPECT_NEAR(recording::end_error(run_).x_m, 0.5 - run_.odometry.back().x_m, 1e-6);
   ASSERT_EQ(asked.size(), 3U);
-  EXPECT_THAT(asked[0], testing::AllOf(HasSubstr("line 4"), HasSubstr("the time does not increase")));
-  EXPECT_THAT(asked[1], testing::AllOf(HasSubstr("line 3"), HasSubstr("'noon' is no number")));
-  EXPECT_THAT(asked[2],
+  EXPECT_THAT(asked[0].occasion, Tells(TruthFileProblem::time_not_increasing, file.string(), "4"));
+  EXPECT_THAT(asked[1].occasion, Tells(TruthFileProblem::not_a_number, file.string(), "3", "noon"));
+  EXPECT_THAT(asked[2].text,
               testing::AllOf(HasSubstr("before-line-1.csv"), HasSubstr("999.5 m from where odometry ends")));
 }
 

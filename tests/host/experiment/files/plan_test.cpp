@@ -5,15 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/base/error.hpp"
 #include "host/experiment/files/method_names.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::experiment {
 namespace {
 
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using support::ThrowsTelling;
 
 std::vector<std::string> titles(const Plan& plan, std::size_t phase) {
   std::vector<std::string> list;
@@ -78,16 +76,16 @@ TEST(Plan, DrivesExtrasInTheFirstAndTheLastPhaseOnly) {
 }
 
 TEST(Plan, RefusesWhatCannotBeDriven) {
-  const auto refused = [](auto change, const char* what) {
+  const auto refused = [](auto change, const std::string& name, const std::string& value) {
     Plan plan;
     change(plan);
-    EXPECT_THAT([&] { plan.check(); }, ThrowsMessage<Error>(HasSubstr(what)));
+    EXPECT_THAT([&] { plan.check(); }, ThrowsTelling(PlanProblem::out_of_range, name, value));
   };
-  refused([](Plan& plan) { plan.runs = 0; }, "0 runs");
-  refused([](Plan& plan) { plan.side_m = 0; }, "side 0 m");
-  refused([](Plan& plan) { plan.side_m = std::nan(""); }, "side nan m");
-  refused([](Plan& plan) { plan.speed_mps = -1; }, "speed of -1 m/s");
-  refused([](Plan& plan) { plan.rounds = 0; }, "0 rounds");
+  refused([](Plan& plan) { plan.runs = 0; }, "runs", "0");
+  refused([](Plan& plan) { plan.side_m = 0; }, "side_m", "0");
+  refused([](Plan& plan) { plan.side_m = std::nan(""); }, "side_m", "nan");
+  refused([](Plan& plan) { plan.speed_mps = -1; }, "speed_mps", "-1");
+  refused([](Plan& plan) { plan.rounds = 0; }, "rounds", "0");
 }
 
 TEST(Plan, IsOpenEndedWhereACalibrationFollowsAndAPrecisionIsWanted) {
@@ -101,21 +99,22 @@ TEST(Plan, IsOpenEndedWhereACalibrationFollowsAndAPrecisionIsWanted) {
 }
 
 TEST(Plan, RefusesAPrecisionThatCannotBeDrivenFor) {
-  const auto refused = [](auto change, const char* fact, Help help, const std::string& value) {
+  const auto refused = [](auto change, PlanProblem problem, const std::vector<std::string>& values) {
     Plan plan;
     plan.truth = "sim";
     plan.until = Until{5e-4, 10};
     EXPECT_NO_THROW(plan.check());
     change(plan);
-    EXPECT_THAT([&] { plan.check(); }, support::ThrowsTelling(HasSubstr(fact), help, value));
+    const Remark told = support::told_by([&] { plan.check(); });
+    EXPECT_THAT(told, support::Tells(problem));
+    EXPECT_EQ(told.values, values);
   };
-  refused([](Plan& plan) { plan.until->target = 0; }, "precision of 0 %", Help::none, "");
-  refused([](Plan& plan) { plan.until->most = 1; }, "at most 1 squares", Help::none, "");
-  refused([](Plan& plan) { plan.order = Order::cw_first; }, "alternate", Help::keep_order, "");
+  refused([](Plan& plan) { plan.until->target = 0; }, PlanProblem::out_of_range, {"target", "0"});
+  refused([](Plan& plan) { plan.until->most = 1; }, PlanProblem::out_of_range, {"most", "1"});
+  refused([](Plan& plan) { plan.order = Order::cw_first; }, PlanProblem::order_of_open_ended, {});
   refused([](Plan& plan) { plan.method = method_named("extended", "average", "exact"); },
-          "only maximum likelihood", Help::drop_precision_or_method, "extended");
-  refused([](Plan& plan) { plan.truth = "manual"; }, "along the whole drive",
-          Help::count_runs_or_change_truth, "manual");
+          PlanProblem::method_without_precision, {"extended"});
+  refused([](Plan& plan) { plan.truth = "manual"; }, PlanProblem::truth_without_precision, {"manual"});
 }
 
 TEST(MethodNames, ComeBackAsTheyWere) {
@@ -125,9 +124,11 @@ TEST(MethodNames, ComeBackAsTheyWere) {
 
 TEST(MethodNames, NameTheWordThatIsNone) {
   EXPECT_THAT([] { method_named("magic", "average", "exact"); },
-              ThrowsMessage<Error>(
-                  HasSubstr("'magic' is no method: there are auto, ml, umbmark, extended, least-squares")));
-  EXPECT_THAT([] { order_named("sideways"); }, ThrowsMessage<Error>(HasSubstr("'sideways'")));
+              ThrowsTelling(NameProblem::unknown, "magic", "method",
+                            "auto, ml, umbmark, extended, least-squares, robust"));
+  EXPECT_THAT([] { order_named("sideways"); },
+              ThrowsTelling(NameProblem::unknown, "sideways", "order of directions",
+                            "alternating, cw-first, ccw-first"));
 }
 
 }  // namespace
