@@ -12,7 +12,14 @@ namespace astro::simulation {
 
 /// What keeps a simulator from serving at a path, which is the value. The last one is about the file of its
 /// flash.
-enum class ServerProblem { path_in_use, path_taken, path_refused, path_too_long, flash_is_link, flash_in_use };
+enum class ServerProblem {
+  path_in_use,
+  path_taken,
+  path_refused,
+  path_too_long,
+  flash_is_link,
+  flash_in_use
+};
 
 /// The robot's end of a pseudo terminal, and a symlink by which hosts find the other end. Raw from the start:
 /// nothing is echoed or translated, whoever opens it.

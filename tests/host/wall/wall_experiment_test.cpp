@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/files.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/base/interrupted.hpp"
 #include "host/robot/parameters/upload.hpp"
@@ -232,9 +233,8 @@ TEST(WallExperiment, LetsOnlyOneProgramDriveInAFolder) {
   const TemporaryFolder folder;
   WallDesk desk(robot_before_a_wall(17));
   const FolderLock other(folder.path());
-  const Remark in_use = support::told_by([&] { FolderLock(folder.path()); });
-  ASSERT_NE(in_use.sentence, "");
-  EXPECT_EQ(why_not(desk, quick(), folder.path(), desk.hooks()).sentence, in_use.sentence);
+  EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()),
+              support::Tells(FileProblem::folder_in_use, folder.path().string()));
   EXPECT_EQ(desk.board().truth().x_m, 0) << "nothing has moved";
 }
 

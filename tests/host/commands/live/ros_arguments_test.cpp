@@ -125,7 +125,7 @@ TEST(RosArguments, AWordThatIsNoneOfThemIsNamed) {
            {{"--params-file"}, "--params-file needs a value"}})
     EXPECT_EQ(why_not(words), "--ros-args: " + said);
   EXPECT_THAT(why_not({"-p", "kp:={"}),
-              testing::StartsWith("--ros-args: -p 'kp:={': kp, line 1: this is not YAML: "));
+              testing::StartsWith("--ros-args: -p 'kp:={': kp, line 2: this is not YAML: "));
 }
 
 TEST(RosArguments, ParametersOfTheNodeTakeThePlaceOfOptions) {

@@ -58,7 +58,7 @@ TEST_P(WrongFilm, IsRefusedWithWhatToFilmDifferently) {
   const Outcome outcome = support::astrolabe({"calibrate", "runs", (folder / "runs").string(), "--truth",
                                               "film:" + film.string(), "--out", factors.string()});
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr(sentence.sentence), HasSubstr(sentence.remedy)));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr(sentence.fact), HasSubstr(sentence.remedy)));
   EXPECT_FALSE(fs::exists(factors));
 }
 
@@ -88,7 +88,7 @@ TEST(WrongFigures, AreNamedWithWhatTheFilmShows) {
     words.insert(words.end(), wrong.words.begin(), wrong.words.end());
     const Outcome outcome = support::astrolabe(words);
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr(wrong.sentence));
+    EXPECT_THAT(outcome.err, HasSubstr(wrong.fact));
   }
   // Its only key picture does not show that another tag moves.
   const Outcome of_floor = support::astrolabe({"truth", "film", film, "--robot-tag", "3"});
@@ -116,7 +116,7 @@ TEST(WrongOptions, OfAFilmSayWhichPartOfThemIsWrong) {
     words.insert(words.end(), wrong.words.begin(), wrong.words.end());
     const Outcome outcome = support::astrolabe(words);
     EXPECT_NE(outcome.code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr(wrong.sentence));
+    EXPECT_THAT(outcome.err, HasSubstr(wrong.fact));
   }
 }
 

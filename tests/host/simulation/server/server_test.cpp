@@ -12,6 +12,7 @@
 
 #include "common/safety/fault.hpp"
 #include "host/base/error.hpp"
+#include "host/base/files.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
@@ -28,6 +29,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
+using support::Tells;
 
 /// A server on a thread of its own, and a host at its pty.
 class Served {
@@ -224,8 +226,8 @@ TEST(Server, RefusesAFlashFileThatItCannotWriteBeforeAnyRobotRuns) {
   const test::TemporaryFolder folder;
   const auto flash = folder.path() / "flash";
   std::filesystem::create_directory(folder.path() / "flash.part");
-  EXPECT_THAT(refusal(flash).sentence, testing::HasSubstr("flash.part"));
-  EXPECT_THAT(refusal("/proc/robot.flash").sentence, testing::HasSubstr("/proc/robot.flash"))
+  EXPECT_THAT(refusal(flash), Tells(FileProblem::unwritable, flash.string() + ".part"));
+  EXPECT_THAT(refusal("/proc/robot.flash"), Tells(FileProblem::unwritable, "/proc/robot.flash.part"))
       << "where nobody makes a file";
   std::filesystem::remove(folder.path() / "flash.part");
   EXPECT_EQ(refusal(flash).sentence, "");

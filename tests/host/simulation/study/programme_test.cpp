@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "host/base/require_positive.hpp"
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/shortest_programme.hpp"
@@ -143,10 +144,10 @@ TEST(Forecast, RefusesProgrammesThatLeaveAFactorOpen) {
               Tells(LimitProblem::exceeds_memory, "3705"));
   Programme flat;
   flat.side_m = 0;
-  EXPECT_EQ(told_by([&] {
-              (void)forecast(flat.with({2, 0, 0, 0}));
-            }).sentence,
-            "the side of the squares in metres is 0, and has to be a positive number");
+  EXPECT_THAT(told_by([&] {
+                (void)forecast(flat.with({2, 0, 0, 0}));
+              }),
+              Tells(SettingProblem::not_positive, "the side of the squares in metres", "0"));
 }
 
 TEST(ShortestProgramme, MeetsTheTargetAndTakesNoRunTooMany) {
@@ -208,8 +209,7 @@ TEST(ShortestProgramme, RefusesWhatCannotBeReached) {
   };
   EXPECT_THAT(told(5e-4, {kLines}), Tells(ProgrammeProblem::lines_alone));
   EXPECT_THAT(told(1e-7, {kSquares}), Tells(ProgrammeProblem::precision_too_fine));
-  EXPECT_EQ(told(0, {kSquares}).sentence,
-            "the precision wanted of E_d is 0, and has to be a positive number");
+  EXPECT_THAT(told(0, {kSquares}), Tells(SettingProblem::not_positive, "the precision wanted of E_d", "0"));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/experiment/files/plan.hpp"
+#include "host/robot/parameters/parameter_row.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "tests/support/base/remarks.hpp"
 
@@ -133,7 +135,7 @@ TEST(SimulatedSource, RefusesWhatTheRobotCannotDriveOrRecord) {
   EXPECT_THAT(refusal(setup), Tells(SetupProblem::count_rate_not_recorded));
   setup = small_setup();
   setup.side_m = 0.05;
-  EXPECT_EQ(refusal(setup).sentence, "a square of side 0.05 m cannot be driven: 0.2 m to 100 m are possible");
+  EXPECT_THAT(refusal(setup), Tells(experiment::PlanProblem::out_of_range, "side_m", "0.05"));
   setup = small_setup();
   setup.windup_rad = 0.006;
   EXPECT_THAT(refusal(setup), Tells(SetupProblem::windup_not_simulated));
@@ -146,8 +148,8 @@ TEST(SimulatedSource, RefusesWhatTheRobotCannotDriveOrRecord) {
   EXPECT_THAT(refusal(setup), Tells(SetupProblem::of_other_model, "kinematic", "simulator"));
   setup = small_setup();
   setup.wheelbase_m = 3;
-  EXPECT_EQ(support::told_by([&] { SimulatedSource().of_trial(setup, 0); }).sentence,
-            "b = 3 m is out of range: 0.05 m to 2 m");
+  EXPECT_THAT([&] { SimulatedSource().of_trial(setup, 0); },
+              support::ThrowsTelling(robot::ParameterProblem::out_of_range, "b", "3 m", "0.05 m to 2 m"));
 }
 
 }  // namespace

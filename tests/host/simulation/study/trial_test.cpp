@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/base/require_positive.hpp"
 #include "host/simulation/study/kinematic_source.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
@@ -51,12 +52,12 @@ TEST(StudySetup, RefusesWhatCannotBeDriven) {
     change(setup);
     return support::told_by([&] { setup.check(); });
   };
-  EXPECT_EQ(told([](TrialSetup& s) { s.side_m = 0; }).sentence,
-            "the side of the square in metres is 0, and has to be a positive number");
+  EXPECT_THAT(told([](TrialSetup& s) { s.side_m = 0; }),
+              Tells(SettingProblem::not_positive, "the side of the square in metres", "0"));
   EXPECT_THAT(told([](TrialSetup& s) { s.trials = 0; }),
               Tells(LimitProblem::out_of_range, "the number of trials", "0"));
-  EXPECT_EQ(told([](TrialSetup& s) { s.noise.K_m = std::nan(""); }).sentence,
-            "the wheel slip K in metres is nan, and has to be a positive number");
+  EXPECT_THAT(told([](TrialSetup& s) { s.noise.K_m = std::nan(""); }),
+              Tells(SettingProblem::not_positive, "the wheel slip K in metres", "nan"));
   EXPECT_THAT(told([](TrialSetup& s) {
                 s.side_m = 1000;
                 s.runs = 1000;
@@ -64,8 +65,8 @@ TEST(StudySetup, RefusesWhatCannotBeDriven) {
               Tells(LimitProblem::exceeds_memory, "7411"));
   EXPECT_THAT(told([](TrialSetup& s) { s.circles = 1001; }),
               Tells(LimitProblem::out_of_range, "the number of circles in each direction", "1001"));
-  EXPECT_EQ(told([](TrialSetup& s) { s.circle_radius_m = 0; }).sentence,
-            "the radius of the circles in metres is 0, and has to be a positive number");
+  EXPECT_THAT(told([](TrialSetup& s) { s.circle_radius_m = 0; }),
+              Tells(SettingProblem::not_positive, "the radius of the circles in metres", "0"));
   EXPECT_THAT(told([](TrialSetup& s) { s.e = 0.3; }),
               Tells(LimitProblem::out_of_range, "the curvature effect e", "0.3"));
   EXPECT_THAT(told([](TrialSetup& s) { s.windup_rad = -0.006; }),
