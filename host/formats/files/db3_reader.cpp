@@ -117,7 +117,7 @@ class Db3Reader {
           database_.get(),
           "SELECT rootpage > 0 FROM sqlite_master WHERE type = 'table' AND name = '" + table + "'");
       const int step = found.step();
-      if (step == SQLITE_NOTADB || step == SQLITE_CANTOPEN) refuse("is not a database: " + why());
+      if (step == SQLITE_NOTADB) refuse("is not a database");
       if (step != SQLITE_ROW && step != SQLITE_DONE) refuse("cannot be read as a bag: " + why());
       if (step == SQLITE_DONE || found.integer(0) == 0)
         refuse_table(BagProblem::no_such_table,

@@ -176,12 +176,12 @@ void settle_direction(const std::string& name, const truth::FloorFindings& findi
   if (!findings.turns_against_wheels && !findings.up_given && findings.height_m < -kClear_m)
     throw Error(
         fmt::format(
-            "'{}': the body is {} m below the tracker's origin, so the axis that seems to point up may point "
-            "down and the wheels may be exchanged",
-            name, distance),
+            "the body is {} m below the tracker's origin, so the axis that seems to point up may point down "
+            "and the wheels may be exchanged",
+            distance),
         ImportProblem::below_origin, {name, distance});
   if (!findings.turns_against_wheels) return;
-  const std::string fact = "'" + name + "': the wheels turn the robot the other way than the ground truth";
+  const std::string fact = "the wheels turn the robot the other way than the ground truth";
   if (findings.up_given) throw Error(fact, ImportProblem::turns_against_stated_up, {name});
   if (findings.height_m > kClear_m) {
     remarks.push_back({"the wheels show that the tracker's axis that seems to point up points down"});

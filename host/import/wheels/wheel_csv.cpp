@@ -240,8 +240,7 @@ class Table {
     if (!track_.samples.empty()) {
       const WheelSample& before = track_.samples.back();
       if (sample.time_ns < before.time_ns)
-        refuse_line(name_, lines_.line(),
-                    "the time is before that of the row above; sort the rows, or leave the column out",
+        refuse_line(name_, lines_.line(), "the time is before that of the row above: sort the rows",
                     WheelTableProblem::times_fall);
       if (columns_.per_interval) {
         sample.left += before.left;
@@ -262,7 +261,7 @@ class Table {
 
   void finish() {
     if (track_.samples.size() < 2)
-      refuse_line(name_, lines_.line(), "the table ends with fewer than two rows of wheels",
+      refuse_line(name_, std::max(lines_.line(), 1), "the table ends with fewer than two rows of wheels",
                   WheelTableProblem::too_few_rows);
     columns_.per_interval ? refuse_lost_rows() : unwrap(track_, name_);
     if (incomplete_ > 0)

@@ -102,12 +102,12 @@ std::vector<SourcedTrial> sorted_by_index(const std::vector<ShardFile>& parts) {
 }
 
 [[noreturn]] void refuse_gap(int count, int begin, int end) {
-  const std::string which =
-      end - begin == 1 ? std::to_string(begin) : std::to_string(begin) + " to " + std::to_string(end - 1);
-  throw Error("of " + std::to_string(count) + " trials " + which +
-                  " are missing: run their shard, or name its file, too",
-              StudyProblem::trials_missing,
-              {std::to_string(count), std::to_string(begin), std::to_string(end - 1)});
+  const std::string which = end - begin == 1
+                                ? "number " + std::to_string(begin) + " is"
+                                : std::to_string(begin) + " to " + std::to_string(end - 1) + " are";
+  throw Error(
+      "of " + std::to_string(count) + " trials " + which + " missing: run the shard, or name its file, too",
+      StudyProblem::trials_missing, {std::to_string(count), std::to_string(begin), std::to_string(end - 1)});
 }
 
 [[noreturn]] void refuse_twice(const SourcedTrial& trial, const SourcedTrial& before) {

@@ -107,7 +107,7 @@ void TrackBuilder::add(const TrackedPose& sample, const Rows& rows) {
       return;
     }
     if (sample.time_ns < before)
-      rows.refuse("the time does not increase; sort the rows, or leave the column out",
+      rows.refuse("the time is before that of the row above: sort the rows",
                   TrackProblem::time_not_increasing);
   }
   if (track_.samples.size() >= most_)

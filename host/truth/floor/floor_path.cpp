@@ -50,8 +50,8 @@ Direction3 known_up(const BodyTrack& track, const FloorChoices& choices, FloorFi
   if (evidence.by_rotations) return *evidence.by_rotations;
   if (track.facts.rotation_kind == RotationKind::heading) return {0, 0, 1};
   throw Error(
-      "'" + track.name +
-          "' does not show which axis points up: the body neither turned nor drove a curve: drive both "
+      (track.name.empty() ? "the recording" : "'" + track.name + "'") +
+          " does not show which axis points up: the body neither turned nor drove a curve: drive both "
           "ways round, and lines as well as turns",
       FloorProblem::no_up_axis, {track.name});
 }
