@@ -21,7 +21,7 @@ struct ChildPipe {
   Descriptor ours, childs;
 };
 
-/// Only this program's end does not block: another program need not expect that of its output.
+/// Only this program's end is non-blocking, because the other program need not expect that of its output.
 ChildPipe new_pipe() {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw system_error("no pipe to another program can be made", errno);

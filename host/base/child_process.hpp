@@ -16,8 +16,8 @@
 
 namespace astro {
 
-/// A program that runs beside this one: its output as bytes, what it says on its error stream as lines. Its
-/// input is empty. The destructor ends it.
+/// A program that runs beside this one. Its output is read as bytes, and its error stream as lines. Its input
+/// is empty. The destructor ends it.
 ///
 /// Threads  one. wait() watches both streams, so that neither can block the program.
 class ChildProcess {
@@ -32,24 +32,24 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Once. `words`: the program, found along PATH unless it names a folder, and its arguments. `line` is called
-  /// by wait() alone. Returns 0, or the value of errno that says why it cannot be started. Throws astro::Error
-  /// if no pipe can be made.
+  /// May be called once. `words`: the program, found along PATH unless it names a folder, and its arguments. `line` is called
+  /// by wait() alone. Returns 0, or the value of errno that says why it cannot be started. Throws astro::Error if no pipe can
+  /// be made.
   int start(std::vector<std::string> words, Output output, Line line);
 
-  /// Until the program has closed the stream.
+  /// True until the program has closed the stream.
   bool writes_bytes() const { return static_cast<bool>(output_); }
   bool writes_lines() const { return static_cast<bool>(lines_); }
 
-  /// Waits until the program has written to a stream or closed it, or a signal has come. False if nothing of
-  /// that happens within `patience`. Throws astro::Error if the system has too little memory.
+  /// Waits until the program has written to a stream or closed it, or a signal has come. False if none of
+  /// these happens within `patience`. Throws astro::Error if the system has too little memory.
   bool wait(std::chrono::milliseconds patience);
 
   /// The bytes that have come; returns their number, maybe 0.
   std::size_t read(std::span<std::uint8_t> bytes);
 
-  /// Waits for its end, which closed streams are not, and kills it after `patience`. Its exit status; nothing if
-  /// a signal ended it.
+  /// Waits until the program has ended, and kills it after `patience`. Closed streams do not mean that it has ended. Returns
+  /// its exit status; nothing if a signal ended it.
   std::optional<int> finish(std::chrono::milliseconds patience);
 
  private:

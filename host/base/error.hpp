@@ -8,8 +8,8 @@
 
 namespace astro {
 
-/// What went wrong or looks odd, as a value of an enumeration of the room that says it:
-/// importing::WheelProblem::columns_unclear. A new one touches that room alone.
+/// The kind of a problem: a value of an enumeration that belongs to the room which reports it, for instance
+/// importing::WheelProblem::columns_unclear. So a new kind changes only that room.
 class Kind {
  public:
   constexpr Kind() = default;
@@ -28,8 +28,9 @@ class Kind {
   int problem_ = 0;
 };
 
-/// A notice that is not an error: a whole sentence, with what would help where that needs no command line; and the kind, with
-/// the names and values in the sentence, for those who act on it or know an option that helps (host/commands/base/advice.hpp).
+/// A notice that is not an error. It is a whole sentence, with the remedy if that needs no command line. The kind, and the
+/// names and values in the sentence, are for callers that act on it or know an option that helps
+/// (host/commands/base/advice.hpp).
 struct Remark {
   std::string sentence;
   Kind kind = {};

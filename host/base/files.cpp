@@ -46,7 +46,7 @@ void sync_folder(const fs::path& folder) {
   if (opened) ::fsync(opened.get());
 }
 
-/// The whole file, of which `judge` sees each block, and what was read before it, before it is added.
+/// Loads the whole file. `judge` sees each block, and what was read before it, before the block is added.
 template <class Judge>
 Bytes loaded(const fs::path& path, std::uintmax_t most_bytes, const Judge& judge) {
   constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
@@ -57,7 +57,7 @@ Bytes loaded(const fs::path& path, std::uintmax_t most_bytes, const Judge& judge
     const ByteView block =
         file.read(bytes.size(), static_cast<std::size_t>(std::min(file.size() - bytes.size(), kBlock)));
     judge(block, bytes);
-    if (bytes.empty()) bytes.reserve(static_cast<std::size_t>(file.size()));  // of what begins as it should
+    if (bytes.empty()) bytes.reserve(static_cast<std::size_t>(file.size()));  // `judge` accepted its start
     append(bytes, block);
   }
   return bytes;
@@ -180,7 +180,7 @@ void PartFile::open_part() {
 }
 
 PartFile::~PartFile() {
-  // While it is locked: afterwards the name may be another program's.
+  // Unlinked while it is locked, because afterwards the name may be another program's.
   if (descriptor_ && empty_) ::unlink(part_.c_str());
 }
 

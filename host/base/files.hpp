@@ -11,9 +11,9 @@
 
 namespace astro {
 
-/// What is wrong with a file or a folder. Values: its path; then of too_large its size and the limit, of
-/// not_plain_text the first byte that is zero and of line_too_long the first byte of the line, both counted
-/// from 1, of unreadable what the system says, of of_other_kind the kind that it should have.
+/// What is wrong with a file or a folder. Values: its path; then its size and the limit (too_large), the
+/// first byte that is zero (not_plain_text) or the first byte of the line (line_too_long), both counted from
+/// 1, what the system says (unreadable), or the kind that it should have (of_other_kind).
 enum class FileProblem {
   missing,
   unfinished,
@@ -33,25 +33,26 @@ enum class FileProblem {
   folder_in_use
 };
 
-/// The largest file that is read as a whole. What holds a few settings is limited to far less.
+/// The largest file that is read as a whole. A file with a few settings is limited to far less.
 inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{4} << 30;
 inline constexpr std::uintmax_t kMaxSettingsBytes = std::uintmax_t{1} << 20;
 
-/// Throws astro::Error if the file does not exist, and says if its `.part` does, or if it is no regular file.
+/// Throws astro::Error if the file does not exist or is no regular file. If only its `.part` exists, the
+/// message says so.
 void require_file(const std::filesystem::path& path);
 
 /// Reads the whole file. Throws astro::Error as require_file does, or if it cannot be read or is larger than
 /// `most_bytes`.
 Bytes load_file(const std::filesystem::path& path, std::uintmax_t most_bytes = kMaxFileBytes);
 
-/// The same of text. What is none is refused where that shows first, before the rest is read: at a NUL byte (UTF-16, a hole in a
-/// sparse file), or in a line of more than kLongestLine bytes. `longest_line`: other than that of a table.
+/// The same for text. A file that is no text is refused before the rest is read, at its first NUL byte (UTF-16, a hole in a
+/// sparse file) or at its first line of more than `longest_line` bytes. The default is enough for any line of a table.
 inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 Bytes load_text(const std::filesystem::path& path, std::size_t longest_line = kLongestLine);
 
-/// Before a file is replaced that may be a person's own. Throws astro::Error if there is a file at `path` that is not empty
-/// and does not contain `mark`, which all files contain, near their beginning, that this program writes there; `kind` names
-/// them ("report").
+/// To be called before a file is replaced that may be a person's own. Throws astro::Error if the file at `path` is not empty
+/// and does not contain `mark`. All files that this program writes there contain `mark` near their beginning; `kind` names them
+/// ("report").
 void require_own_kind(const std::filesystem::path& path, std::string_view mark, const std::string& kind);
 
 /// Throws astro::Error if `path` is one of the files that are read to write it.
@@ -62,7 +63,7 @@ void require_no_input(const std::filesystem::path& path, std::initializer_list<s
 /// cannot be repeated. Without commit() a `.part` that holds anything stays, so that its content can be
 /// rescued, until the same path is written again. Missing folders of the path are created.
 ///
-/// Links   a folder on the way may be a link; a `.part` that is one is refused.
+/// Links   a folder in the path may be a link; a `.part` that is a link is refused.
 /// Errors  astro::Error naming the file and what the system said, or that there is a folder or a recording of
 ///         that name, or that another program is writing it.
 class PartFile {

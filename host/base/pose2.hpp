@@ -8,7 +8,7 @@
 /// Frames  A pose says where a frame b is, seen from a frame a: T_ab. Then T_ac = T_ab * T_bc, and a point
 ///         p_b of frame b is p_a = T_ab * p_b. The axes are x forward and y left; theta is counter-clockwise.
 /// Units   metres, radians. Headings are added and subtracted as they are, because whole turns count;
-///         wrapped() drops them where that is asked.
+///         wrapped() removes them.
 /// Errors  none. A NaN reaches only what depends on it: a pose without a heading has a position in any frame.
 /// Cost    constant; at most two sines and two cosines each.
 /// Source  Sola, Deray, Atchuthan, A micro Lie theory for state estimation in robotics, arXiv:1812.01537v9,
@@ -47,8 +47,8 @@ struct Pose2 {
     const Point2 at = Point2{other.x_m - x_m, other.y_m - y_m}.turned(-theta_rad);
     return {at.x_m, at.y_m, other.theta_rad - theta_rad};
   }
-  /// The motion that ends here and turns by exactly theta: exp(log(T)) = T. None of whole turns ends beside
-  /// its start: towards them its length grows without bound.
+  /// The motion that ends here and turns by exactly theta: exp(log(T)) = T. A motion by whole turns ends at
+  /// its start. So if the end is elsewhere and theta approaches whole turns, the length grows without bound.
   Twist2 log() const;
 };
 

@@ -8,7 +8,7 @@
 
 namespace astro {
 
-/// What a setting cannot be. Values: its name and what it is.
+/// Why a setting is refused. Values: its name and its value.
 enum class SettingProblem { not_positive };
 
 /// Refuses what is not a finite number above zero. `what` is named with its unit: "the side of the square in

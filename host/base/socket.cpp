@@ -31,15 +31,15 @@ bool poll_for(const Socket& socket, short events, microseconds timeout) {
 
 Socket open_socket(int family, int type) {
   Socket socket(::socket(family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  // Whatever is at the other end, it does not help to try again, or elsewhere.
+  // Without a free descriptor it does not help to try again, or to try another address.
   if (!socket && (errno == EMFILE || errno == ENFILE)) throw system_error("no socket can be opened", errno);
   const int kept_bytes = 1 << 20;  // of datagrams that come while nobody reads
   if (type == SOCK_DGRAM) ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &kept_bytes, sizeof kept_bytes);
   return socket;
 }
 
-/// Poses are small and must not wait for one another. A peer whose computer was switched off says nothing:
-/// after some ten seconds the connection has ended.
+/// Poses are small and must not wait for one another. A peer whose computer was switched off sends nothing,
+/// so keep-alive ends its connection after some ten seconds.
 void set_up(const Socket& socket) {
   const auto set = [&](int level, int option, int value) {
     ::setsockopt(socket.get(), level, option, &value, sizeof value);
@@ -170,7 +170,7 @@ Socket listen_tcp(const Address& local) {
 
 Socket bind_udp(const Address& local) { return open_bound(local, SOCK_DGRAM); }
 
-/// Bound to the group itself, so that nothing else comes in.
+/// The socket is bound to the group itself, so that it receives nothing else.
 Socket join_multicast(const std::array<std::uint8_t, 4>& group, std::uint16_t port, const Address& local) {
   in_addr_t host = 0;
   for (const std::uint8_t byte : group) host = host << 8U | byte;

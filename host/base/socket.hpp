@@ -35,7 +35,7 @@ struct Address {
   /// All addresses of a host, at least one, in the order in which they should be tried. Throws astro::Error if its name
   /// has none.
   static std::vector<Address> all_of(const std::string& host, std::uint16_t port);
-  /// This computer itself, which no other one reaches; or all of its networks.
+  /// The address that only this computer itself reaches, and the one that stands for all of its networks.
   static Address loopback(std::uint16_t port);
   static Address everywhere(std::uint16_t port);
   /// This computer's end of a socket.
@@ -50,24 +50,24 @@ struct Address {
 
 /// True if there is something to read, or the other side has gone.
 bool wait_to_read(const Socket& socket, microseconds timeout);
-/// Of either of two; the second may be empty.
+/// The same for either of two sockets; the second may be empty.
 bool wait_to_read(const Socket& one, const Socket& other, microseconds timeout);
 
-/// True if a connection that was begun has come to something.
+/// True if a connection that was begun has succeeded or failed.
 bool wait_to_connect(const Socket& socket, microseconds timeout);
 
 /// Begins to connect; connecting() tells when that is done. Empty if it failed at once.
 Socket begin_tcp(const Address& to);
 enum class Connecting : std::uint8_t { pending, connected, failed };
-/// Tells of a failure once.
+/// Reports a failure only once.
 Connecting connecting(const Socket& socket);
 
 /// Port 0: any that is free. Throw astro::Error if the port is in use or the address is not this computer's.
 Socket listen_tcp(const Address& local);
 Socket bind_udp(const Address& local);
 
-/// What is sent to a group of IPv4, taken in at the network of a local address. Others on this computer may
-/// listen to the same. Throws astro::Error.
+/// Receives what is sent to an IPv4 group, on the network of a local address. Other programs on this computer
+/// may listen to the same group. Throws astro::Error.
 Socket join_multicast(const std::array<std::uint8_t, 4>& group, std::uint16_t port, const Address& local);
 
 /// A connection that waits, and where it comes from; empty if none does.
@@ -85,11 +85,12 @@ std::optional<std::size_t> send(const Socket& socket, ByteView bytes);
 /// One datagram, which is lost if it cannot be sent now.
 void send_datagram(const Socket& socket, ByteView bytes, const Address& to);
 
-/// The system keeps at most about this many bytes that the other side has not taken; otherwise megabytes.
+/// Limits the bytes that the system keeps because the other side has not taken them yet to about this many;
+/// without a limit it keeps megabytes.
 void bound_sending(const Socket& socket, int bytes);
 
-/// What has arrived by a connection, in `buffer`; empty if nothing has. Nothing at all if the connection has
-/// ended.
+/// The bytes that have arrived on a connection, in `buffer`; empty if there are none, and nullopt if the
+/// connection has ended.
 std::optional<ByteView> receive(const Socket& socket, std::span<std::uint8_t> buffer);
 /// The next datagram, in `buffer` and cut to its size, and where it comes from; nothing if none waits.
 struct Datagram {

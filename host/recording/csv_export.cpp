@@ -26,7 +26,7 @@ std::string row(const TruthSample& sample) {
 
 constexpr std::size_t kWriteBytes = 65536;  // written at a time
 
-/// The path itself, unless a file of another kind stands there.
+/// Returns the path; throws if a file of another kind is there.
 const std::filesystem::path& replaceable(const std::filesystem::path& path) {
   require_own_kind(path, "__time,/", "export");
   return path;

@@ -5,8 +5,7 @@
 
 namespace astro::recording {
 
-/// Why a run has no ends that can be compared. Values: the run; then of no_rest and no_truth "start" or
-/// "end".
+/// Why a run has no ends that can be compared. Values: the run; then "start" or "end" (no_rest, no_truth).
 enum class EndProblem { no_odometry, no_rest, no_truth, no_heading, never_moves };
 
 /// The end of a run by ground truth and by odometry, each in the frame of its own start; theta of truth is NaN if truth has

@@ -6,8 +6,8 @@
 
 namespace astro::recording {
 
-/// What lets viewers (RViz, Foxglove's 3D panel) show the robot of a run without configuration: its description, where
-/// its base and wheels are, and how far the wheels have turned. The sizes come from the parameters of the run; without
+/// The messages with which viewers (RViz, Foxglove's 3D panel) show the robot of a run without configuration: its description,
+/// the poses of its base and wheels, and how far the wheels have turned. The sizes come from the parameters of the run; without
 /// them there is no description, and only the base moves.
 class RobotMessages {
  public:

@@ -49,7 +49,7 @@ class Exporter {
     return bag_.add_topic(name, type.name, type.definition);
   }
 
-  /// The first message of the bag.
+  /// Writes the first message of the bag.
   void describe(std::int64_t time_ns) {
     if (robot_.knows_sizes() && !described_) bag_.write(description_, time_ns, robot_.description());
     described_ = true;

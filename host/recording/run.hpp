@@ -10,9 +10,9 @@
 
 /// One drive as it was recorded: odometry and ground truth.
 ///
-/// Frames  odometry: the robot's odom frame. truth: the tracker's frame. x forward, y left at the start of a
-///         frame's owner, theta counter-clockwise. The two frames are not related; only the motion is the
-///         same.
+/// Frames  odometry: the robot's odom frame. truth: the tracker's frame. theta is counter-clockwise; the odom
+///         frame has x forward and y left at the robot's start. The two frames are not related; only the
+///         motion is the same.
 /// Times   microseconds on the robot's clock, both streams (`truth_clock` says how truth got there).
 namespace astro::recording {
 
@@ -40,7 +40,7 @@ struct RunInfo {
   std::string started_at;    // ISO 8601, UTC
   std::string truth_source;  // "sim", "manual", "file", "" if none
   std::string truth_clock;   // "robot"; "host": mapped from the recording computer's
-  /// Which film the truth is from, by its content (film_track.hpp); "" if from none.
+  /// Identifies the film that the truth is from by its content (film_track.hpp); "" if there is none.
   std::string truth_film = {};
   /// Standard error of the common factor of all lengths in the truth, which no drive shows: 0 where a tracker is calibrated;
   /// infinite where nobody measured a length.

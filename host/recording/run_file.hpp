@@ -14,8 +14,8 @@
 ///             sample comes back as NaN. `warning` is not stored.
 namespace astro::recording {
 
-/// What is no recording. Values: the file or the folder; then of folder_unreadable what the system says, of
-/// bad_entry the entry's key, of time_out_of_range the time in microseconds.
+/// Why a file or a folder is no recording. Values: the file or the folder; then what the system says
+/// (folder_unreadable), the entry's key (bad_entry), or the time in microseconds (time_out_of_range).
 enum class RecordingProblem {
   not_mcap,
   of_no_run,

@@ -95,7 +95,7 @@ bag::mcap::Map to_map(const RunRecord& record) {
       {"index", std::to_string(record.info.index)}};
   for (const auto& [key, member] : kTexts) map[std::string(key)] = record.info.*member;
   for (const auto& [key, member] : kNumbers) map[std::string(key)] = to_text(record.info.*member);
-  // Of most recordings.
+  // Most recordings have these default values, so they are not written.
   if (record.info.truth_film.empty()) map.erase("truth_film");
   if (record.info.truth_scale_sigma == 0) map.erase("truth_scale_sigma");
   for (const auto& [key, member] : kHeadings) {

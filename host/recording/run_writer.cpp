@@ -39,7 +39,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunInfo& info, bag
   description_ = add_topic(mcap_, "/robot_description", ros2::string_type());
 }
 
-/// The first message, so that a viewer knows the robot before it moves.
+/// Writes the first message, so that a viewer knows the robot before it moves.
 void RunWriter::describe(std::uint64_t time_ns) {
   if (robot_.knows_sizes() && !described_) mcap_.write(description_, time_ns, robot_.description());
   described_ = true;

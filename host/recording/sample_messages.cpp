@@ -8,7 +8,7 @@
 namespace astro::recording {
 namespace {
 
-/// Our own: WheelCounts on the wire.
+/// Our own message type for WheelCounts.
 struct CountsMessage {
   ros2::msg::Time stamp;
   std::int32_t left = 0, right = 0;

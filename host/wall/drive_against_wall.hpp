@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-/// A drive in front of a straight wall as the estimator uses it. Each time the robot has squared itself against the wall, its heading is
-/// that of the wall, but for whole turns; and now and then somebody read the gap between the wall and its front.
+/// A drive in front of a straight wall as the estimator uses it. Each time the robot has squared itself against the wall, its
+/// heading is that of the wall, except for whole turns. After some squarings the robot backed off, and somebody read the gap
+/// between the wall and its front.
 namespace astro::wall {
 
 /// Travel of the wheels since any start, in metres of a nominal wheel (c_R = c_L = 1), forward positive; and the same without
@@ -36,7 +37,8 @@ struct WallSeries {
 
 using WallDrive = std::vector<WallSeries>;
 
-/// What scatters. K_m is as in NoiseModel: the variance of a wheel's slip for each metre that it rolls.
+/// The noise of such a drive. K_m is as in NoiseModel: the variance of a wheel's slip for each metre that it
+/// rolls.
 struct WallNoise {
   double K_m = 2.645e-6;
   double squaring_rad = 1.5e-3;  // of the heading of a robot that stands flush: play, an uneven wall

@@ -14,7 +14,8 @@ using Mistake = GapDoubt::Mistake;
 
 std::string mm(double length_m) { return fmt::format("{:.0f} mm", 1000 * length_m); }
 
-/// The digits of a whole number of millimetres, without one of them, or with two neighbours exchanged.
+/// Whether a missing digit of the whole millimetres, or two neighbouring digits that are exchanged, explain
+/// the difference.
 bool is_slip_of_digits(double read_m, double expected_m, double allowed_m) {
   constexpr double kMost_m = 1000;  // no gap, and too many digits to try
   if (read_m > kMost_m) return false;

@@ -24,14 +24,15 @@ struct GapDoubt {
   };
   Mistake mistake = Mistake::unknown;
   double read_m = 0;
-  /// Wheels that are more than a fifth larger or smaller than the robot takes them for are no matter of a calibration: such a gap, or the robot's
-  /// wheel diameter, gear or counts, is a mistake, whatever its reader says.
+  /// False if the gap needs wheels that are more than a fifth larger or smaller than the robot's parameters say. Then the gap
+  /// or the robot's wheel diameter, gear or counts is wrong, even if the reader confirms the gap.
   bool possible = true;
   /// A sentence without its full stop: what was read, what is expected, and what would explain it.
   std::string why;
 };
 
-/// A gap is expected within 5 mm and three standard errors. `axle_m`: from the front to the axle; `length_m`: of the robot.
+/// Nothing if the gap is possible and within 5 mm plus three standard errors of the expected one. `axle_m`: from the front to
+/// the axle; `length_m`: of the robot.
 std::optional<GapDoubt> doubt_about_gap(double read_m, const ExpectedGap& expected, double axle_m,
                                         double length_m);
 

@@ -33,14 +33,14 @@ constexpr double kPushing_s = 30;      // besides the way there
 constexpr double kSpeedGain_Vspm = 10, kIntegral_Vpm = 150;
 constexpr double kIntegralAtWall_Vpm = 500;  // there is nothing to overshoot, and time is short
 
-/// For how long each wheel has stood although its motor had voltage; left, right. A wheel that moves by less than two counts and a half
-/// in a tenth of a second stands: slower than 1 mm/s it cannot make more. Its speed would not show that, because a count now and then
-/// looks like a wheel that turns.
+/// For how long each wheel has stood although its motor had voltage; left, right. A wheel stands if it moves by less than 2.5
+/// counts in a tenth of a second; a wheel slower than 1 mm/s cannot make more. The measured speed is not used, because with a
+/// count now and then the wheel looks as if it turned.
 class StallClock {
  public:
   explicit StallClock(double count_m) : still_m_(2.5 * count_m) {}
 
-  /// Each sample of telemetry, in order.
+  /// Takes each sample of telemetry, in order.
   void look(const WheelMoment& moment, const WheelTravel& travel) {
     const double step_s = last_us_ == 0 ? 0 : 1e-6 * static_cast<double>(moment.time_us - last_us_);
     last_us_ = moment.time_us;
@@ -116,8 +116,9 @@ class Square {
     return (since.right_m + since.left_m) / 2;
   }
 
-  /// One step; false as soon as a wheel has stood under voltage for long enough. All samples that have come are read first: where a simulator
-  /// runs ahead of its host, they make the client send its sign of life before the voltage, and not between two voltages.
+  /// Applies the voltages for one step. False as soon as a wheel has stood under voltage for long enough. All samples that have
+  /// come are read first: if a simulator runs ahead of its host, they make the client send its heartbeat before the voltage,
+  /// and not between two voltages.
   bool apply(const Wheels& voltage_V) {
     client_.pump(0us);
     const std::uint64_t from_us = watch_.now().time_us, next_us = from_us + kStep_us;
@@ -129,16 +130,18 @@ class Square {
     return stall_.longest_s() < kStall_s - kStep_s;
   }
 
-  /// Nobody knows what the robot does, so nothing renews its voltage any more, and soon it is taken away.
+  /// Without telemetry nobody knows what the robot does. So its voltage is not renewed, and soon it is taken
+  /// away.
   void require_telemetry(std::uint64_t from_us) {
     if (client_.pump_until([&] { return watch_.now().time_us > from_us; }, 240ms)) return;
     session_.set_wheel_voltages(0, 0);
     throw robot::LinkLost(client_.name() + " sends no more telemetry while it pushes against the wall");
   }
 
-  /// Each wheel at the creeping speed, as long as the push allows. A wheel that stands under the full push while the other one turns is
-  /// on the side that touches: it rests until the other one has come up. Otherwise it would be stalled all that time, and where the robot turns about
-  /// its corner it would be turned back, and its friction would press on the wall as well.
+  /// Regulates each wheel to the creeping speed, as far as the push allows. A wheel that stands under voltage while the other
+  /// one turns is on the side that touches, so it rests until the other one has come up. Otherwise it would be stalled all that
+  /// time. If the robot turned about its corner, it would also be turned back, and its friction would add to the force on the
+  /// wall.
   Wheels regulate() {
     choose_rest();
     const double integral_Vpm = touch_.pushes > 1 ? kIntegralAtWall_Vpm : kIntegral_Vpm;
@@ -157,7 +160,8 @@ class Square {
     return voltage_V;
   }
 
-  /// Once in a push: the front is elastic, and two wheels that take turns would rock the robot for ever.
+  /// A wheel rests only once in a push, because the front is elastic, and two wheels that rest alternately
+  /// would rock the robot for ever.
   void choose_rest() {
     if (rests_[0] || rests_[1]) {
       const std::size_t turning = rests_[0] ? 1 : 0;
@@ -176,7 +180,7 @@ class Square {
     return (side == 0 ? since.left_path_m : since.right_path_m) > kStarted_m;
   }
 
-  /// After the first push, which began in front of the wall.
+  /// Called after the first push. That one began in front of the wall, so both wheels must have turned.
   void require_started() const {
     if (has_turned(0) && has_turned(1)) return;
     std::vector<std::string> standing;
@@ -189,8 +193,8 @@ class Square {
         WallProblem::wheels_stand, std::move(standing));
   }
 
-  /// With a motor or an encoder that is reversed the regulator drives its wheel away from what it wants, ever faster. A wheel that the
-  /// wall rolls back, where the robot turns about a corner, is never faster than it crept.
+  /// If a motor or an encoder is reversed, the regulator drives its wheel away from the set point, ever faster. A wheel that
+  /// the wall rolls back, because the robot turns about a corner, is never faster than it crept.
   void require_sense() {
     const WheelTravel since = watch_.travel() - start_;
     const Wheels way_m{since.left_m, since.right_m};
@@ -216,7 +220,8 @@ class Square {
     while (watch_.now().time_us < end_us) apply({});
   }
 
-  /// Creeps on until a wheel has stood for long enough, or both stand under the full push: then true.
+  /// Creeps on until a wheel has stood for long enough, or until both stand under the full push; only then
+  /// the result is true.
   bool push(double within_m) {
     ++touch_.pushes;
     rests_ = {};

@@ -34,7 +34,7 @@ experiment::ParameterFile parameter_file_of(const WallResult& result, const Wall
                           {"c_L", deviation(found, 1)},
                           {"b", deviation(found, 2)},
                           {"e", std::numeric_limits<double>::quiet_NaN()}};
-  // Without a ruler the scale is the loaded one, and as good as that was.
+  // Without a ruler the scale is the loaded one, and is as good as that was.
   file.absolute = found.scale.has_value();
   file.wheel = experiment::NominalWheel{
       result.robot.wheel_diameter_m, std::numbers::pi * result.robot.wheel_diameter_m / result.robot.count_m};

@@ -12,8 +12,8 @@ namespace astro::wall {
 /// Absolute factors with errors, covariance, the robot, the wheel that they refer to, and the verdict.
 experiment::ParameterFile parameter_file_of(const WallResult& result, const WallJudgement& judgement);
 
-/// "method": "wall", factors and their errors, E_d, b / S and S, the loaded factors, how it was driven, and the verdict; numbers that do
-/// not exist are null.
+/// "method": "wall", factors and their errors, E_d, b / S and S, the loaded factors, how it was driven, and the verdict;
+/// numbers that do not exist are null.
 nlohmann::json to_json(const WallResult& result, const WallJudgement& judgement);
 
 }  // namespace astro::wall

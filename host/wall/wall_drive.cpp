@@ -10,11 +10,12 @@
 
 namespace astro::wall {
 
-/// Notices that a robot which follows its set points pushes against something. For 40 ms a wheel
-///   has more voltage than its feed-forward says for its set point and the steepest acceleration, by what the push limit allows; or
-///   falls 0.12 m/s behind its set point, which shows more at high speed, where the voltage is near its end.
-/// It bounds how long the robot pushes, not how hard: the control loop raises the voltage as it likes. Without it the robot would find
-/// a stall at half of its voltage after 300 ms.
+/// Notices that a robot which follows its set points pushes against something, because for 40 ms a wheel
+///   has more voltage than its feed-forward needs for its set point and the steepest acceleration, by more than the push
+///   limit; or
+///   falls 0.12 m/s behind its set point, which shows better at high speed, where the voltage is near its limit.
+/// This limits how long the robot pushes, not how hard, because the control loop may raise the voltage. Without it only the
+/// robot itself would notice a stall, at half of its voltage and after 300 ms.
 class WallDriver::ObstacleGuard {
  public:
   ObstacleGuard(const WallRobot& robot, double push_V) : robot_(robot), push_V_(push_V) {}

@@ -24,8 +24,8 @@ struct Leg {
   double ahead_m = 0, turns = 0;
 };
 
-/// The segment that lets a robot with the factors `actual`, which carries `loaded`, really drive this leg: what its odometry then believes
-/// is an arc.
+/// The segment with which a robot whose true factors are `actual` really drives this leg, although it uses `loaded`. By its own
+/// odometry the segment is an arc.
 robot::Path path_of(const Leg& leg, const calibration::WheelFactors& actual,
                     const calibration::WheelFactors& loaded, robot::PathLimits limits);
 
@@ -42,7 +42,7 @@ class WallDriver {
   WallDriver(robot::Client& client, const WallRobot& robot, double push_V, robot::PathLimits limits,
              Hooks hooks);
 
-  /// Since this driver was made.
+  /// The travel since this driver was made.
   const WheelTravel& travel() const { return watch_.travel(); }
   std::uint64_t robot_us() const { return watch_.now().time_us; }
 

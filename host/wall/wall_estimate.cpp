@@ -18,7 +18,7 @@ constexpr double kWheelbaseKnown = 0.05, kRatioKnown = 0.02;
 
 Eigen::RowVector2d row_of(const WheelTravel& travel) { return {travel.right_m, -travel.left_m}; }
 
-/// Of the loaded factors.
+/// a_R and a_L of the loaded factors.
 Eigen::Vector2d loaded_a(const calibration::WheelFactors& loaded) {
   return {loaded.c_r / loaded.b_m, loaded.c_l / loaded.b_m};
 }
@@ -67,7 +67,7 @@ void add_series(Normal& normal, const Stretch* begin, const Stretch* end, double
   normal.add(rows, values, covariance);
 }
 
-/// Penalty of a number that is usually `usual`, within a factor of `factor`, in log-likelihood.
+/// The logarithm of the prior of a number that is usually `usual`, within a factor of `factor`.
 double knowledge(double value, double usual, double factor) {
   const double off = std::log(value / usual) / std::log(factor);
   return -off * off / 2;
@@ -83,8 +83,8 @@ double worth(const std::vector<Stretch>& stretches, const calibration::WheelFact
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
-/// The whole turns of a stretch: the nearest to what the fit of the stretches before says, so that a few turns teach how long
-/// many are.
+/// The whole turns of a stretch: the number nearest to that by the fit of the stretches before, so that stretches with a few
+/// turns make those with many turns unambiguous.
 double whole_turns_rad(const WheelTravel& travel, const HeadingFit& before) {
   const double turned = before.a[0] * travel.right_m - before.a[1] * travel.left_m;
   return kTurn_rad * std::round(turned / kTurn_rad);
@@ -115,7 +115,8 @@ Eigen::Matrix3d jacobian_of_factors(const calibration::WheelFactors& f, double E
   return (Eigen::Matrix3d() << f.c_r * right, 0, f.c_r, f.c_l * left, 0, f.c_l, 0, f.b_m, f.b_m).finished();
 }
 
-/// For what must not happen: a few stretches on which the wheels happened to slip little do not show that they never slip more.
+/// The noise for safety limits: K is at least the usual one, because a few stretches on which the wheels happened to slip
+/// little do not show that they never slip more.
 WallNoise cautious(WallNoise noise) {
   noise.K_m = std::max(noise.K_m, WallNoise{}.K_m);
   return noise;
@@ -151,7 +152,7 @@ double heading_variance(const WheelTravel& travel, const HeadingFit& fit, const 
          (row * fit.covariance * row.transpose()).value();
 }
 
-// The best of a grid in both logarithms, then of finer grids about it.
+// Takes the best point of a grid in both logarithms, then of finer grids about it.
 WallNoise noise_of(const std::vector<Stretch>& stretches, const calibration::WheelFactors& loaded,
                    const WallNoise& usual) {
   WallNoise best = usual;
@@ -224,7 +225,7 @@ std::optional<SquaringDoubt> doubt_about_squaring(const WallSeries& series, cons
                     "flush before, "
                     "where {:.1f} would be usual",
                     degrees(std::abs(off_rad)), off_rad > 0 ? "more" : "less", degrees(allowed_rad))};
-  // Slip along the way, and lines that the robot drove askew, each of them twice at the most.
+  // Allows for slip along the path, and for lines that the robot drove askew, each of them twice at the most.
   const double allowed_m = kLeastAllowed_m + kDeviations * std::sqrt(noise.K_m * travel.path_m() / 4) +
                            travel.path_m() / 4 * variance;
   if (std::abs(further_m) <= allowed_m) return std::nullopt;

@@ -16,7 +16,7 @@
 /// Not seen  e, the other wheelbase of gentle arcs: b is that of turns on the spot, and e is kept as loaded.
 namespace astro::wall {
 
-/// What the headings of a drive against a wall tell: between two squarings the robot has turned by whole turns,
+/// A fit of the headings of a drive against a wall. Between two squarings the robot has turned by whole turns,
 ///
 ///   2 pi n = a_R R - a_L L + slip + e2 - e1,     a_R = c_R / b,  a_L = c_L / b
 ///
@@ -34,7 +34,7 @@ struct HeadingFit {
   std::vector<double> residual_rad;
   double chi_square = 0;  // of the residuals with their covariance
   int stretches = 0;
-  /// Of the residuals alone, without what any a would explain (REML), but for a constant.
+  /// The restricted log likelihood (REML), which does not depend on a, up to a constant.
   double log_likelihood = 0;
 };
 
@@ -45,17 +45,16 @@ struct Stretch {
   bool first = true;      // of its series: shares no squaring with the stretch before
 };
 
-/// Weak knowledge that keeps a drive of lines alone determined: a wheelbase within 5 % and a ratio of the wheels within 2 % of the
-/// loaded factors. Any turn or line outweighs it by far.
+/// Uses a weak prior, so that a drive of lines alone is determined, too: a wheelbase within 5 % and a ratio of the wheels
+/// within 2 % of the loaded factors. Any turn or line outweighs it by far.
 HeadingFit fit_headings(const std::vector<Stretch>& stretches, const calibration::WheelFactors& loaded,
                         const WallNoise& noise);
 
-/// By how much the heading after `travel` is uncertain for a robot with these a, slip and both squarings included: variance,
-/// rad^2.
+/// The variance of the heading after `travel`, in rad^2, from the uncertainty of a, slip and both squarings.
 double heading_variance(const WheelTravel& travel, const HeadingFit& fit, const WallNoise& noise);
 
-/// K and the error of a squaring as the drive itself shows them: the most likely ones (REML), with what is usual as knowledge
-/// beforehand: `usual`, K known to a factor of two, which is worth four stretches, the squaring to a factor of three.
+/// K and the error of a squaring as the drive itself shows them: the most likely ones (REML) with `usual` as the prior. The
+/// prior knows K to a factor of two, which has the weight of four stretches, and the error of a squaring to a factor of three.
 WallNoise noise_of(const std::vector<Stretch>& stretches, const calibration::WheelFactors& loaded,
                    const WallNoise& usual);
 
@@ -76,13 +75,13 @@ struct WallEstimate {
   std::vector<Stretch> stretches;
 };
 
-/// Precondition  a series of two squarings or more, or `loaded` is all that comes out.
+/// Precondition  a series of two squarings or more; otherwise the result is `loaded`.
 WallEstimate estimate_wall(const WallDrive& drive, const calibration::WheelFactors& loaded,
                            const WallNoise& usual = {});
 
-/// What is wrong with the last squaring of a drive, by the stretch that ends there: a heading that is far from whole turns, or a wall that was not where it
-/// was before. Nothing if it fits. `expected`: the estimate without it; `further_m`: by how much further the robot had to go to the
-/// wall than if it had come back to where it started.
+/// What is wrong with the last squaring of a drive, judged by the stretch that ends there: the heading is far from whole turns,
+/// or the wall is not where it was before. doubt_about_squaring returns nothing if the squaring fits. `expected`: the estimate
+/// without it. `further_m`: how much farther the robot had to go to the wall than if it had come back to where it started.
 struct SquaringDoubt {
   enum class Kind {
     turned,     // not a whole number of turns, by more than wheels slip: lifted, pushed, or a wheel spun
@@ -97,8 +96,8 @@ struct SquaringDoubt {
 std::optional<SquaringDoubt> doubt_about_squaring(const WallSeries& series, const WallEstimate& expected,
                                                   double further_m);
 
-/// How far the robot must stop before the wall so that it does not reach it while it still drives by its set points, although it may
-/// have slipped, and turned a corner ahead: three standard deviations and `at_least_m`.
+/// How far before the wall the robot must stop, so that it does not touch the wall while it still follows its set points. This
+/// is `at_least_m` and three standard deviations of slip and of a corner that is ahead because the robot has turned.
 double approach_margin_m(const WheelTravel& way, double half_width_m, const WallEstimate& expected,
                          double at_least_m = 0.012);
 

@@ -99,7 +99,8 @@ class Experiment {
     keep(move, flush.travel, flush.crept_m - left_m);
   }
 
-  /// Before anything is known of the robot, turns that end far from whole ones are most likely its own.
+  /// If the squaring fails after one of the first moves with turns, the most likely cause is the robot's own
+  /// factors.
   WallDriver::Flush square_after(const WallMove& move, double within_m) {
     try {
       return driver_.square(within_m);
@@ -120,7 +121,7 @@ class Experiment {
     return legs;
   }
 
-  /// Of the wheels since the robot was flush, and back to the wall.
+  /// The travel of the wheels since the robot was flush, with the way back to the wall.
   WheelTravel way_back(const WallMove& move) {
     WheelTravel way = driver_.travel() - series().squarings.back();
     way.right_m += move.away_m;
@@ -156,7 +157,8 @@ class Experiment {
     series().squarings.push_back(flush);
     if (const auto doubt = doubt_about_squaring(series(), estimate_, further_m)) {
       series().squarings.pop_back();
-      // A gap that was read on that way is of a robot that somebody moved.
+      // A gap that was read since the last squaring is dropped, too, because somebody may have moved the
+      // robot.
       std::erase_if(series().readings,
                     [&](const auto& reading) { return reading.squaring + 1 == series().squarings.size(); });
       if (++doubts_ == kDoubtsInARow)

@@ -12,7 +12,7 @@
 
 namespace astro::wall {
 
-/// What a calibration against a wall is asked to do.
+/// The settings of a calibration against a wall.
 struct WallPlan {
   WallTargets targets;
   double line_m = 3;  // of the laps
@@ -27,7 +27,8 @@ struct WallPlan {
   void check() const;
 };
 
-/// wall.json: what was driven so far, so that it can go on. All counts are in travel of a nominal wheel.
+/// wall.json: what was driven so far, so that the calibration can be resumed. All counts are in travel of a
+/// nominal wheel.
 struct WallJournal {
   WallPlan plan;
   experiment::RobotIdentity robot;
@@ -42,7 +43,7 @@ struct WallJournal {
 std::optional<WallJournal> read_wall_journal(const std::filesystem::path& folder);
 void write_wall_journal(const std::filesystem::path& folder, const WallJournal& journal);
 
-/// The journal in `folder`, or one that begins now and is written.
+/// Reads the journal in `folder`, or writes a new one.
 ///
 /// Throws astro::Error if the folder holds another plan, another robot's drive, one of another wheel, or a damaged file.
 WallJournal open_wall_journal(const std::filesystem::path& folder, const WallPlan& plan,

@@ -10,7 +10,7 @@
 namespace astro::wall {
 namespace {
 
-/// What was found from all stretches but one. The stretch behind it then shares no squaring with the one before.
+/// The fit of all stretches but one. The stretch behind that one then shares no squaring with the one before.
 HeadingFit without(std::size_t held_out, const WallEstimate& found, const calibration::WheelFactors& loaded) {
   std::vector<Stretch> others = found.stretches;
   if (held_out + 1 < others.size()) others[held_out + 1].first = true;
@@ -58,7 +58,7 @@ WallJudgement judge_wall(const WallDrive& drive, const WallEstimate& found,
     HeadingFit exact = others;
     exact.covariance.setZero();
     const double variance = heading_variance(stretch.travel, exact, found.noise);
-    // Where few laps were driven, one of them says nothing without the others.
+    // If few laps were driven, the others may determine the factors too poorly to judge this stretch.
     constexpr double kVague = 10;
     if (heading_variance(stretch.travel, others, found.noise) > kVague * variance) continue;
     gains.push_back((by_loaded * by_loaded - by_found * by_found) / variance);

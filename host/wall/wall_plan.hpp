@@ -5,16 +5,16 @@
 
 #include "host/wall/wall_estimate.hpp"
 
-/// Which moves in front of a wall make the factors as precise as wanted, computed before anything is driven.
+/// Plans the moves in front of a wall that make the factors as precise as wanted, before anything is driven.
 namespace astro::wall {
 
 /// Each move begins and ends flush with the wall.
-///   repeat  a little way off and back: shows how well the robot squares itself
-///   gap     straight off, where somebody reads the gap, and back: the scale
-///   laps    off far enough to turn; then again and again half a turn, a line forwards away from the wall, half a turn, a line forwards
-///           back; and back to the wall: E_d, and b
-///   spin    off far enough to turn, some whole turns on the spot, and back: b
-/// A robot that backs off and comes forward again undoes what its unequal wheels have turned it by, so only the laps show E_d.
+///   repeat  backs off a little and returns; shows how well the robot squares itself
+///   gap     backs straight off, waits until somebody has read the gap, and returns; gives the scale
+///   laps    backs off far enough to turn; then in each lap makes half a turn, drives a line away from the wall, makes half a
+///           turn, and drives a line back, all forwards; then returns to the wall; gives E_d and b
+///   spin    backs off far enough to turn, makes whole turns on the spot, and returns; gives b
+/// If a robot backs off and comes forward again, the rotation that its unequal wheels cause cancels, so only the laps show E_d.
 struct WallMove {
   enum class Kind { repeat, gap, laps, spin };
   Kind kind = Kind::laps;
@@ -24,7 +24,7 @@ struct WallMove {
   bool operator==(const WallMove&) const = default;
 };
 
-/// Wanted standard errors, of E_d and of b / S (relative). That of S is what the readings of the ruler leave.
+/// Wanted standard errors, of E_d and of b / S (relative). That of S follows from the readings of the ruler.
 struct WallTargets {
   double E_d = 2e-4, b = 1e-3;
 };
@@ -46,14 +46,15 @@ struct WallCourse {
   double time_s = 0;    // with four seconds for each squaring
 };
 
-/// Three repetitions and one short lap each way round, so that a robot that nobody has calibrated yet does not stray; the gaps that are read; and laps,
-/// two at a time, one way round and then the other, until E_d is known; turns on the spot if b is not known by then. Of both as many as the targets need by
-/// the estimator's own covariance, but at most kMostMoves: `expected` then says what is reached.
+/// plan_course: three repetitions and one short lap each way round, so that a robot that nobody has calibrated yet does not
+/// stray; then the gaps that are read; then moves of two laps, alternately one way round and the other, until E_d is precise;
+/// then spins if b is not precise by then. The estimator's own covariance says how many are needed. There are at most
+/// kMostMoves of each kind; `expected` then says what is reached.
 inline constexpr int kMostMoves = 200;
 inline constexpr std::size_t kFirstMoves = 5;  // before the gaps
 WallCourse plan_course(const WallWishes& wishes, const calibration::WheelFactors& loaded);
 
-/// The move of laps number `index` from 0 of a course: every other one is clockwise.
+/// The laps number `index` of a course, counted from 0; every other one is clockwise.
 WallMove laps_number(int index, const WallWishes& wishes);
 WallMove spin_number(int index, const WallWishes& wishes);
 

@@ -9,18 +9,18 @@
 /// What is driven next in front of a wall.
 namespace astro::wall {
 
-/// Part by which the robot may drive further, or less far, than its own odometry says because of a scale that was found.
+/// The largest part by which an estimated scale may lengthen or shorten a drive, compared with the robot's own odometry.
 inline constexpr double kFurther = 0.05;
 
-/// What the plan wishes of plan_course, on this robot.
+/// The wishes for plan_course that follow from the plan and this robot.
 WallWishes wishes_of(const WallPlan& plan, const WallRobot& robot);
 
-/// With so few stretches K is hardly known, and a drive that happened to slip little must not end too early: what counts are the
-/// errors for a K that is one standard error larger.
+/// Whether E_d and b are as precise as wanted. With so few stretches K is hardly known, so the errors are taken for a K that is
+/// one standard error larger. Otherwise a drive that happened to slip little would end too early.
 bool is_precise(const WallEstimate& estimate, const WallTargets& wanted);
 
-/// The repetitions, the first laps and the gaps of plan_course in any case; up to two more gaps if those contradict each other; then laps and
-/// spins until E_d and b are precise. Nothing if that is reached, or the time is over.
+/// First the repetitions, the first laps and the gaps of plan_course; then up to two more gaps if those contradict each other;
+/// then laps and spins until E_d and b are precise. Nothing if they are, or if the time is over.
 std::optional<WallMove> next_move(const WallJournal& journal, const WallEstimate& estimate,
                                   const WallRobot& robot);
 

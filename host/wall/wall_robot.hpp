@@ -5,13 +5,13 @@
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
-/// What a robot's parameters and its owner say about it, as far as a wall matters.
+/// What a calibration against a wall needs from the robot's parameters and from its owner.
 namespace astro::wall {
 
-/// What ends a calibration against a wall, keeps it from going on or is worth a notice. Values: of
-/// wheels_stand the wheels, of runs_backwards the wheel if it is one, of no_wall how far the robot went, of a
-/// push its force in N; of impossible_plan the name in WallPlan and what it is. A squaring that does not
-/// count is of the kind of its SquaringDoubt (wall_estimate.hpp).
+/// Why a calibration against a wall ends or cannot be resumed, or what it notices. Values: the wheels
+/// (wheels_stand), the wheel if it is one (runs_backwards), how far the robot went (no_wall), the force in N
+/// (push_too_weak, push_too_strong), the name in WallPlan and its value (impossible_plan). A squaring that
+/// does not count is of the kind of its SquaringDoubt (wall_estimate.hpp).
 enum class WallProblem {
   not_at_wall,
   wheels_stand,
@@ -39,8 +39,8 @@ struct BodySize {
   double turning_gap_m() const;
 };
 
-/// How hard the robot may push, and what decides which voltage that is: torque at the wheel of a motor that is held, from its
-/// data sheet.
+/// How hard the robot may push, and the motor data from which the voltage follows: the stall torque at the wheel, from the data
+/// sheet.
 struct PushLimit {
   double force_N = 12;  // of both wheels together
   double stall_Nm = 1.76, stall_V = 12;
@@ -59,14 +59,15 @@ struct WallRobot {
 /// Throws astro::Error where the robot lacks a parameter.
 WallRobot wall_robot_of(const robot::RemoteParameters& robot);
 
-/// The voltage at which both motors, held, push with force_N together. A motor that turns pushes less, by its back-EMF; what
-/// friction takes is not counted on. So no voltage up to this one pushes harder, but for the blow of the body that stops:
+/// The voltage at which both motors, if stalled, push with force_N together. A motor that turns pushes less, because of its
+/// back-EMF, and further losses by friction are not counted on. So no voltage up to this one pushes harder, except for the
+/// impact of the body:
 ///
 ///   torque = (stall_Nm / (stall_V - kS)) V      because at stall_V friction has taken kS off
 ///   force  = 2 torque / (diameter / 2)
 ///
-/// Throws astro::Error if the wheels would not start turning on it (kS and as much again), or if it is so high that the robot
-/// would report a stall.
+/// Throws astro::Error if the voltage is too low to start the wheels (below 2 kS), or so high that the robot would report a
+/// stall.
 double push_voltage_V(const PushLimit& limit, const WallRobot& robot);
 
 }  // namespace astro::wall

@@ -68,7 +68,7 @@ double scatter_of(const std::vector<Backing>& backings, const Line& line) {
   return std::max(1.0, std::sqrt(line.chi_square / static_cast<double>(backings.size() - 1)));
 }
 
-/// All but the reading that fits the others worst.
+/// The readings without the one that fits the others worst.
 std::vector<Backing> without_worst(const std::vector<Backing>& backings, double contact_m) {
   std::vector<Backing> best;
   double least = std::numeric_limits<double>::infinity();

@@ -15,8 +15,8 @@ struct WheelMoment {
   std::array<double, 2> speed_mps{}, set_point_mps{}, voltage_V{};
 };
 
-/// Follows a robot's wheels by its telemetry, every 10 ms: their newest state, and their travel since the watch began. Lost samples
-/// lose no travel, because counts are running totals.
+/// Follows a robot's wheels by its telemetry, every 10 ms: their newest state, and their travel since the watch began. A lost
+/// sample loses no travel, because counts are running totals.
 ///
 /// Errors  LinkLost if no telemetry comes.
 class WheelWatch {

@@ -20,7 +20,7 @@ std::string_view take_line(std::string_view& rest) {
   return line;
 }
 
-/// Without the quotes; a doubled quote inside quotes stands for one.
+/// The cell without its quotes; a doubled quote inside quotes stands for one.
 std::string unquoted(std::string_view cell) {
   std::string out;
   bool inside = false;

@@ -8,8 +8,9 @@
 
 namespace astro {
 
-/// Why text is no table. Values: its name; of all but `empty` the line, or of not_plain_text the byte that is
-/// zero, counted from 1; of row_of_other_length how many cells the row and the header have.
+/// Why text is no table. Values: its name; the line (all but `empty` and not_plain_text) or the byte that is
+/// zero, counted from 1 (not_plain_text); then the number of cells in the row and in the header
+/// (row_of_other_length).
 enum class CsvProblem {
   empty,
   not_plain_text,

@@ -26,11 +26,12 @@ std::optional<double> number_in(std::string_view text);
 std::optional<int> integer_in(std::string_view text);
 std::optional<std::uint64_t> unsigned_in(std::string_view text);
 
-/// What a number in a file is not. Values: its name and its text, of which at most 40 characters.
+/// Why text in a file is not the number that is needed. Values: its name and at most 40 characters of its
+/// text.
 enum class NumberProblem { not_a_count };
 
-/// The count that `text` from a file is. Throws astro::Error, which shows the name and the text, for anything
-/// else than a whole number from 0 to the greatest int: conversions would make some number of 1e300 and 2^32 + 5.
+/// Reads a count from the text of a file. Throws astro::Error, which shows the name and the text, for anything but a whole
+/// number from 0 to the greatest int, because a plain conversion turns 1e300 and 2^32 + 5 into other numbers.
 int count_in(std::string_view text, std::string_view name);
 
 /// A number as a person types it: finite, perhaps with a plus sign before it. Nothing if the text is not one.

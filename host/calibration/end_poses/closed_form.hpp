@@ -2,13 +2,13 @@
 
 #include "host/calibration/end_poses/end_pose.hpp"
 
-/// The closed formulas from mean end poses to E_d and E_b. Runs, scatter and files are not their business.
+/// The closed formulas from mean end poses to E_d and E_b. Runs, scatter and files are handled elsewhere.
 ///
 /// alpha: turn error of one spin (the odometry's quarter turn minus the true one); beta: how far one leg
 /// turns to the left. Both in radians. E_d = D_R / D_L, E_b = b_actual / b_odometry.
 ///
 /// Precondition: side_m and b_m are positive and finite.
-/// Errors  none. A mean that no robot has gives a ratio that no robot has.
+/// Errors  none. An implausible mean gives an implausible ratio.
 namespace astro::calibration {
 
 /// Mean end poses (centres of gravity) of the two directions.

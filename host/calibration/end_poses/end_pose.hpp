@@ -8,9 +8,9 @@
 /// End-pose errors of closed runs, the raw material of UMBmark.
 namespace astro::calibration {
 
-/// Why end poses give no factors. Values: of no_run, one_direction_only and no_headings the direction, if
-/// it has a name; of not_finite, no_heading and heading_beyond_half_a_turn the run, of the last the heading
-/// in radians, too; of all that are bad or implausible the numbers.
+/// Why end poses give no factors. Values: the direction, if it has a name (no_run, one_direction_only,
+/// no_headings); the run (not_finite, no_heading, heading_beyond_half_a_turn, the last with the heading in
+/// radians); the numbers (all that are bad or implausible).
 enum class EndPoseProblem {
   no_runs,
   no_run,

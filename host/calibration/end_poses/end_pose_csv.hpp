@@ -24,10 +24,9 @@
 ///   a cell that is empty, not a number, not finite, or not a direction
 namespace astro::calibration {
 
-/// Why a table has no end poses, beside what a CsvProblem says. Values: its name; of all but no_rows the
-/// line; then of no_column the quantity ("ex"), of no_unit the column's title, of two_columns both titles,
-/// of no_direction the cell, of empty_cell, not_a_number and not_finite the column's title and what is in
-/// the cell.
+/// Why a table gives no end poses, in addition to CsvProblem. Values: its name; the line, except for no_rows;
+/// then the quantity, "ex" (no_column), the column's title (no_unit), both titles (two_columns), the cell
+/// (no_direction), or the column's title and the cell's text (empty_cell, not_a_number, not_finite).
 enum class EndPoseTableProblem {
   no_rows,
   no_column,

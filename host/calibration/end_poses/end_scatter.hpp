@@ -6,7 +6,7 @@
 
 namespace astro::calibration {
 
-/// What makes the measured ends of equal squares differ.
+/// The noise that makes the measured ends of equal squares differ.
 ///
 /// slip_m      variance of a wheel's travel per metre. The default gives the scatter of the thesis's tables: 55 mm and
 ///             28 mrad at the end of a square of 3 m.
@@ -17,8 +17,8 @@ struct EndNoise {
   double reading_m = 0.002, reading_rad = 0.007;
 };
 
-/// Covariance of x, y and theta at the end of a square. Slip on the way turns the rest of the path about the place
-/// where it happened, so that the three errors depend on each other: the heading alone explains most of the position.
+/// Covariance of x, y and theta at the end of a square. A slip turns the rest of the path about the place where it happens, so
+/// the three errors are correlated: the heading alone explains most of the position.
 ///
 /// Precondition  side_m and b_m are positive.
 Eigen::Matrix3d end_covariance(double side_m, Sense sense, double b_m, const EndNoise& noise = {});

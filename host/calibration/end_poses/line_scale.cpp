@@ -48,7 +48,7 @@ double median_scale(std::span<const LineEnd> lines) {
 }  // namespace
 
 double LineEnd::scale() const {
-  // The chord of an arc halves its turn. One that points aside or back is no line, and an arc would make nothing better.
+  // The direction of the chord is half the turn of the arc. If it points aside or back, this is no line, and no arc is assumed.
   const double half_turn = x_m > std::abs(y_m) ? std::atan2(y_m, x_m) : 0;
   return loaded_scale * std::hypot(x_m, y_m) / sinc(half_turn) / driven_m;
 }

@@ -13,8 +13,8 @@
 namespace astro::calibration {
 namespace {
 
-/// Of chi-square with 2 and 3 degrees of freedom: an honest end exceeds the first once in ten thousand, and the second once
-/// in a hundred.
+/// Quantiles of chi-square with 2 and 3 degrees of freedom: an end without a mistake exceeds `odd` once in ten thousand, and
+/// `fits` once in a hundred.
 struct Bounds {
   double odd, fits;
 };
@@ -106,8 +106,8 @@ bool agree(const std::vector<EndPose>& ends, Sense sense, const SquareSetup& set
   });
 }
 
-/// Takes out the runs of a direction if most of them are odd and all agree with each other: then nobody mistyped, but the
-/// robot or the person's axes are not as expected.
+/// Removes the runs of a direction from the list if most of them are odd and all agree with each other, because then nobody
+/// mistyped, but the robot or the person's axes are not as expected.
 void forgive_all(std::vector<OddRun>& list, const std::vector<EndPose>& ends, Sense sense,
                  const SquareSetup& setup) {
   const auto is_of = [sense](const OddRun& odd) { return odd.sense == sense; };

@@ -10,7 +10,8 @@
 #include "host/calibration/end_poses/end_pose.hpp"
 #include "host/calibration/end_poses/robust_fit.hpp"
 
-/// Runs whose end does not fit those of the other runs, and the mistake of a person that would explain it.
+/// Finds runs whose end does not fit the other runs, and the typing or measuring mistake that would explain
+/// it.
 namespace astro::calibration {
 
 /// The end of a square in its start frame; a heading that was not measured is NaN.
@@ -31,19 +32,19 @@ struct OddRun {
   Sense sense = Sense::cw;
   std::size_t index = 0;  // within its direction
   EndPose measured, expected;
-  double chi_square = 0;  // how far it is from what all other runs let expect (Surprise)
+  double chi_square = 0;  // distance from the prediction of all other runs (Surprise)
   std::optional<Mistake> mistake;
 };
 
-/// The runs that do not fit, each judged by a fit of all other runs: first those that a mistake explains, then those that
-/// are farthest off. A run is odd if an honest one would be so far off once in ten thousand.
+/// The runs that do not fit a fit of all other runs. Those that a mistake explains come first, and otherwise the farthest
+/// first. A run is odd if a run without a mistake would be so far off only once in ten thousand.
 ///
-/// A single square is judged, too: whatever the wheels and the wheelbase are, x, y and heading belong together, so that
-/// a changed sign shows at once. A dropped digit may show only when more runs of its direction are there. While two runs of a
-/// direction contradict each other, both are odd. If most runs of a direction are odd and all of it agree with each other,
-/// none is: not one number is wrong then, but an axis or the robot.
+/// A single square is judged, too: its x, y and heading are related for any wheels and wheelbase, so a wrong sign shows at
+/// once. A dropped digit may show only if there are more runs of its direction. As long as a direction has only two runs and
+/// these contradict each other, both are odd. If most runs of a direction are odd but all of them agree with each other, none
+/// of them is reported, because then an axis or the robot is wrong and not a single number.
 ///
-/// Errors  none: ends that nothing explains are no odd runs but no runs at all, and the estimate says so.
+/// Errors  none. If no ratios explain the ends at all, the result is empty, and the estimate throws instead.
 std::vector<OddRun> odd_runs(std::span<const SquareEnd> cw, std::span<const SquareEnd> ccw,
                              const SquareSetup& setup);
 

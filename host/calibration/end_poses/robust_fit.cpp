@@ -45,7 +45,7 @@ struct Expected {
 
 bool has_heading(const EndPose& end) { return !std::isnan(end.theta_rad); }
 
-/// The inverse of a covariance of which only what was measured counts.
+/// The inverse of the covariance of what was measured; zero for a heading that was not.
 Matrix3d information_of(const Matrix3d& covariance, bool heading) {
   if (heading) return covariance.inverse();
   Matrix3d information = Matrix3d::Zero();
@@ -96,8 +96,8 @@ struct EndSums {
   }
 };
 
-/// Ratios from the medians of each direction, to first order. Of a robot that has driven one direction only, as if its
-/// wheelbase were right.
+/// Ratios from the medians of each direction, to first order. If the robot has driven in one direction only, its wheelbase is
+/// taken as right.
 Vector2d start_of(const Direction& cw, const Direction& ccw, const SquareSetup& setup) {
   const auto leg_rad = [&](const Direction& direction, double sign) -> std::optional<double> {
     std::vector<double> angles;
@@ -121,7 +121,7 @@ Matrix2d information_of(const std::optional<RatioPrior>& prior) {
   return Vector2d(prior->E_d, prior->E_b).cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-/// A scatter below that of usual robots is believed only where it is far below, and then not quite.
+/// A scatter below 1, that of usual robots, is raised, because a few runs do not prove it (surprise_of).
 double cautious(double scatter) {
   constexpr double kUnsure = 2.5;
   return std::max(scatter, std::min(1.0, kUnsure * scatter));
@@ -154,7 +154,8 @@ RobustFit fit_ends(std::span<const EndPose> cw_ends, std::span<const EndPose> cc
     if (step.norm() < kSettled)
       return {std::exp(p(0)), std::exp(p(1)),
               (sums.information / (kLossOfNormal * scatter) + known).inverse(), scatter};
-    // A scatter that changes in each step could keep the fit from settling.
+    // The scatter is fixed after some steps, because a scatter that changes in each step could prevent
+    // convergence.
     if (i < kScatterIterations) scatter = robust_scatter(sums.distances, prior ? 0 : 2);
   }
   fail();

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-/// Weights and scatter for fits that a few wrong numbers must not spoil.
+/// Weights and scatter for fits that are robust against a few wrong numbers.
 namespace astro::calibration {
 
 /// Numbers of one run that belong together.
@@ -14,15 +14,15 @@ struct Distance {
 /// The variance of a fit with robust_weight over that of least squares where the scatter is normal.
 inline constexpr double kLossOfNormal = 1.08;
 
-/// How much the fit listens to these numbers: 1 or a little more where they fit, less the farther they are. These are the
-/// weights of Student's t distribution of six degrees of freedom, narrowed so that for normal numbers it is the closest one.
+/// The weight of these numbers in a fit: 1 or a little more if they fit, and less the farther off they are. These are the
+/// weights of Student's t distribution of six degrees of freedom, scaled so that it comes closest to a normal one.
 ///
 /// Source  Lange, Little & Taylor 1989, Robust statistical modeling using the t distribution.
 double robust_weight(const Distance& distance, double scatter);
 
-/// The variance of the numbers over what their covariance says, from the median of the distances, so that nearly half of
-/// them may be wrong. `fitted`: how many numbers the fit matches exactly. Something is known before any run, worth four
-/// numbers, so that two runs which happen to agree do not seem exact: the result is 1 where there are no numbers.
+/// The ratio of the numbers' variance to their covariance, from the median of the distances, so that nearly half of them may be
+/// wrong. `fitted`: degrees of freedom that the fit uses up. A prior of 1 with the weight of four numbers keeps two runs that
+/// happen to agree from seeming exact. Without numbers the result is 1.
 double robust_scatter(const std::vector<Distance>& distances, double fitted);
 
 }  // namespace astro::calibration

@@ -25,8 +25,8 @@ using Parameters = Eigen::Vector2d;  // ln E_d, ln E_b, so that no step makes a 
 using Residuals = Eigen::Vector4d;
 using PositionJacobian = Eigen::Matrix<double, 4, 2>;
 
-/// What the fit makes small: the exact replay of both directions against the measured end positions, each weighted by how often
-/// it was driven.
+/// What the fit minimises: the difference of the exact replay of both directions from the measured end positions, each weighted
+/// by how often it was driven.
 struct EndPositions {
   const MeanErrors& mean;
   double side_m;
@@ -86,8 +86,8 @@ Parameters best_fit(const EndPositions& positions, Parameters p) {
 ///
 /// Unlike umbmark_ratios it has no small-angle bias: noise-free end positions give the true ratios back.
 /// Returns the ratios; alpha, beta and the curvature are those of the fitted robot.
-/// Errors  throws astro::Error when the iteration does not settle, which only implausible end poses bring
-/// about. Cost    Gauss-Newton, about 5 steps of 5 replays.
+/// Errors  throws astro::Error if the iteration does not converge, which only implausible end poses cause.
+/// Cost    Gauss-Newton, about 5 steps of 5 replays.
 Ratios fit_end_positions(const MeanErrors& mean, RunCounts runs, double side_m, const WheelFactors& loaded) {
   const EndPositions positions{mean, side_m, loaded, std::sqrt(runs.cw), std::sqrt(runs.ccw)};
   const Parameters p = best_fit(positions, first_guess(mean, side_m, loaded.b_m));
@@ -201,7 +201,7 @@ Eigen::Matrix3d covariance_of_mean(std::span<const EndPose> runs) {
   }
   deviations.colwise() -= deviations.rowwise().mean().eval();
   const double n = static_cast<double>(runs.size());
-  return deviations * deviations.transpose() / (n * (n - 1));  // 0 / 0 = NaN for one run, as promised
+  return deviations * deviations.transpose() / (n * (n - 1));  // 0 / 0 = NaN for one run, as documented
 }
 
 /// Delta method: J C J^T with a central difference for J. The step makes J wrong by 1e-9 through rounding and
@@ -243,7 +243,7 @@ void estimate_robustly(Estimate& out, std::span<const EndPose> cw, std::span<con
   out.se = standard_errors(fit, out.factors);
 }
 
-/// With those methods that take the mean ends of both directions.
+/// Estimates by a method that takes the mean ends of both directions.
 void estimate_from_means(Estimate& out, std::span<const EndPose> cw, std::span<const EndPose> ccw) {
   const Experiment experiment{
       out.side_m, out.loaded, out.options, {out.summary.cw.runs, out.summary.ccw.runs}};

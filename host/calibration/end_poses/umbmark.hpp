@@ -24,10 +24,10 @@ struct Options {
   Formula formula = Formula::exact;           // read by Method::extended
 };
 
-/// Standard errors from the scatter of the runs within each direction, to first order. All NaN with fewer
-/// than two runs in a direction: one run shows no scatter. Method::robust takes the scatter about its fit, of which
-/// something is known before any run, and has them for single runs, too. They do not include the bias of the method, the
-/// error of the side length, or the uncertainty of the loaded factors.
+/// Standard errors from the scatter of the runs within each direction, to first order. All NaN with fewer than two runs in a
+/// direction: one run shows no scatter. Method::robust takes the scatter about its fit, which has a prior, so it has standard
+/// errors for single runs, too. They do not include the bias of the method, the error of the side length, or the uncertainty of
+/// the loaded factors.
 struct StandardErrors {
   double E_d = 0, E_b = 0, c_r = 0, c_l = 0, b_m = 0;
 };

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostGroups = 10;
 constexpr int kPriorRuns = 4;
 
-/// Every so many-th run, so that a group has runs of all kinds and senses if they were driven by turns or one after
+/// Every `groups`-th run, so that a group has runs of all kinds and senses, whether these were driven alternately or one after
 /// the other.
 std::vector<std::size_t> members_of(std::size_t index, std::size_t groups, std::size_t runs) {
   std::vector<std::size_t> members;
@@ -29,7 +29,7 @@ bool contains(std::span<const std::size_t> members, std::size_t run) {
   return std::find(members.begin(), members.end(), run) != members.end();
 }
 
-/// What all runs but the members of a group say together.
+/// The information of all runs but the members of a group.
 Pool without(const MlFit& fit, std::span<const std::size_t> members) {
   Pool others(fit.fixed(), fit.unknowns().front()[kE]);
   for (std::size_t i = 0; i < fit.sums().size(); ++i)
@@ -47,7 +47,8 @@ WheelFactors found_by(const Pool& others, const MlFit& fit) {
   return factors;
 }
 
-/// The members of a group, with the unknowns where their fits begin: those of a fit of all runs, but lever arm and skew without them.
+/// The members of a group, with the unknowns at which their fits begin: those of the fit of all runs, but with the lever arm
+/// and the skew that the other runs give.
 struct Group {
   PreparedRuns prepared;
   std::vector<Unknowns> start;
@@ -115,7 +116,8 @@ int CrossValidation::better_on() const {
       std::count_if(runs.begin(), runs.end(), [](const HeldOutRun& run) { return run.gain > 0; }));
 }
 
-// Drives that could not be held out may be those on which the factors would fail.
+// If drives could not be held out, the verdict is not `better`, because the factors may fail on just these
+// drives.
 void CrossValidation::judge() {
   std::vector<double> gains;
   for (const HeldOutRun& run : runs) gains.push_back(run.gain);

@@ -14,17 +14,17 @@
 /// Whether new factors are better than those in use, judged on drives that they have not seen.
 ///
 /// The runs are divided into groups. Factors are estimated from all groups but one, and the drives of that one are
-/// followed with them and with the factors in use. Factors from crude data fit their own drives well and others
-/// badly; here that shows before anybody loads them.
+/// dead-reckoned with them and with the factors in use. Factors from poor data fit their own drives well and others badly; the
+/// comparison shows that before anybody loads them.
 namespace astro::calibration {
 
 /// One run with the factors in use, and with factors that were found without it.
 struct HeldOutRun {
   RunErrors in_use, found;  // by dead reckoning; of end poses alone, path_rms_m is NaN
   WheelFactors without_it;  // what was found without the run
-  /// How much more likely the drive is with the factors that were found: difference of -2 log likelihood. The
-  /// path errors above grow with everything that slipped since the start; this weighs what each moment adds,
-  /// so it tells factors apart whose paths differ by less than the slip.
+  /// How much more likely the drive is with the factors that were found than with those in use: difference of
+  /// -2 log likelihood. The path errors above accumulate all slip since the start. The likelihood weighs the
+  /// error that each moment adds, so it distinguishes factors whose paths differ by less than the slip.
   double gain = 0;
 };
 
@@ -35,10 +35,10 @@ struct HeldOutErrors {
 
 struct CrossValidation {
   std::vector<HeldOutRun> runs;
-  /// What could not be judged, each as a clause that says why: runs that could not be held out, because the others do not
-  /// determine all factors.
+  /// Runs that could not be held out because the others do not determine all factors; each as a clause that says why.
   std::vector<Remark> not_judged;
-  /// unknown: of fewer than two drives, or better only on some drives where others could not be held out.
+  /// unknown if there are fewer than two drives, or if the factors are better but some drives could not be
+  /// held out.
   Verdict verdict = Verdict::unknown;
 
   /// Runs that are more likely with the new factors.
@@ -61,14 +61,14 @@ struct CrossValidation {
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
                                const MlEstimate& all, const MlOptions& options);
 
-/// better or worse where the mean gain differs from none at the 10 % level, one-sided; unknown for fewer than two.
-/// Where the factors in use are right, others found from data lose a little on average, so a false claim is far less
-/// likely than that: below 1.5 % for any number of drives, as simulated.
+/// better or worse if the mean gain differs from zero at the 10 % level, one-sided; unknown for fewer than two. If the factors
+/// in use are right, factors found from data lose a little on average, so a false claim is far less likely than 10 %: in
+/// simulations below 1.5 % for any number of drives.
 ///
-/// For normal noise the variance of a gain is four times its mean. That is known before any drive, and counts as
-/// much as four drives would in what the drives themselves say about their scatter. Without it two drives
-/// could hardly show anything, however large the gain: Student's t would ask for gains that are equal within a
-/// sixth of their mean. With it alone a robot whose slip is not normal would be judged too boldly.
+/// For normal noise the variance of a gain is four times its mean. This is the prior for the variance of the gains, with the
+/// weight of four drives. Without the prior two drives could hardly show anything, however large the gain, because Student's t
+/// would need gains that are equal within a sixth of their mean. With the prior alone the verdict would be too bold for a robot
+/// whose slip is not normal.
 ///
 /// Source  Smyth 2004, moderated t statistic.
 Verdict judge_gains(std::span<const double> gains);

@@ -33,14 +33,14 @@ struct Scatter {
   }
 };
 
-/// What is left of an end error with factors that foretell `expected` of it.
+/// The rest of an end error with factors that predict `expected` of it.
 RunErrors left_of(const EndPose& end, const EndPose& expected, std::string name) {
   return {std::move(name), std::hypot(end.x_m - expected.x_m, end.y_m - expected.y_m),
           end.theta_rad - expected.theta_rad, std::numeric_limits<double>::quiet_NaN()};
 }
 
-/// -2 log likelihood of an end, but for what does not depend on the factors. No end is measured better than to a tenth of a
-/// millimetre and of a milliradian, however little the ends of a simulation scatter.
+/// -2 log likelihood of an end, without terms that do not depend on the factors. No end counts as measured better than to a
+/// tenth of a millimetre and of a milliradian, even if the ends of a simulation scatter less.
 double cost_of(const RunErrors& left, const Scatter& scatter) {
   constexpr double kLeastVariance = 1e-8;
   const double position =

@@ -61,8 +61,8 @@ PathErrors path_errors(const MlFit& fit, const WheelFactors& factors) {
 PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& factors,
                        const MlOptions& options) {
   PreparedRuns prepared = prepare(runs, factors, options.clock_known, Density::independent);
-  // The factors are given, so what a spin winds up cannot pass for another wheelbase, and samples in spins show lever arm and
-  // clock best.
+  // All samples of a spin are offered: the factors are given, so the wind-up in a spin cannot be taken for another wheelbase,
+  // and samples in spins show lever arm and clock best.
   for (PreparedRun& run : prepared.runs) run.knots_m = run.path_m;
   PathErrors errors = path_errors(MlFit::of(prepared, factors, options, {.factors = true}), factors);
   errors.left_out = prepared.left_out;

@@ -7,7 +7,7 @@
 
 namespace astro::calibration {
 
-/// What may spoil a calibration. Values: of run_stands_out and run_slipped the run; then for each slip the
+/// What may spoil a calibration. Values: the run (run_stands_out, run_slipped); then for each slip the
 /// seconds since the run's start, and the degrees.
 enum class JudgementProblem {
   too_few_squares,
@@ -18,8 +18,8 @@ enum class JudgementProblem {
   estimated_noise_is_wrong
 };
 
-/// One sentence for each thing that does not fit about an estimate; empty if everything fits. `noise_given`: the noise model
-/// was given (MlOptions::noise) and not estimated.
+/// One sentence for each problem of an estimate; empty if there is none. `noise_given`: the noise model was given
+/// (MlOptions::noise) and not estimated.
 std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given = false);
 
 }  // namespace astro::calibration

@@ -10,11 +10,11 @@
 namespace astro::calibration {
 namespace {
 
-// If leaving the run out widens the covariance by less than this part in some direction, the run does not observe that direction.
-// Between samples that are close to each other counts flicker, because they are whole numbers. On the lines of a square that looks
-// like curves, so that such a run seems to know e to some ten-thousandths of what circles know of it.
+// If leaving the run out widens the covariance by less than this part in some direction, the run does not observe that
+// direction. Between samples that are close to each other counts flicker, because they are whole numbers. On the lines of a
+// square that looks like curves, so such a run seems to have information about e, some ten-thousandths of that of circles.
 constexpr double kSilent = 1e-4, kSilentAmongFlicker = 1e-3;
-constexpr double kSilentShare = 0.05;  // of what an average run says: never more, however many runs there are
+constexpr double kSilentShare = 0.05;  // an upper limit, as a share of an average run's information
 
 double silent_part(bool truth_is_spaced, std::size_t runs) {
   if (truth_is_spaced) return kSilent;
@@ -44,7 +44,7 @@ Disagreement disagreement(const Reduced& run, const Pool& all, double silent) {
   return found;
 }
 
-/// Adds what another stretch of the same session says.
+/// Adds the information of another stretch of the same session.
 void add(Reduced& sum, const Reduced& stretch) {
   sum.information += stretch.information;
   sum.gradient += stretch.gradient;

@@ -18,15 +18,15 @@ struct Disagreement {
 std::vector<Disagreement> disagreements(std::span<const Reduced> runs, const FixedParameters& fixed,
                                         bool truth_is_spaced = false);
 
-/// All disagreements together: chi-square if the noise explains them. Each run is compared with all others: n comparisons, of which n - 1
-/// are independent.
+/// The sum of all disagreements, chi-square distributed if the noise explains them. Each run is compared with all others, which
+/// gives n comparisons, n - 1 of them independent.
 struct Scatter {
   double chi_square = 0;
   int degrees_of_freedom = 0;  // 0: fewer than two runs to compare
 
-  /// Of the variances; 1 if there is nothing to compare.
+  /// The ratio of the variances; 1 if there is nothing to compare.
   double ratio() const;
-  /// Whether noise explains it with a probability below 1 %.
+  /// Whether noise alone gives so large a scatter with a probability below 1 %.
   bool significant() const;
 };
 Scatter scatter(std::span<const Disagreement> runs);
@@ -38,27 +38,32 @@ double dispersion(std::span<const Disagreement> runs);
 /// The same ratio as a median, which a few deviating runs do not change; at least 1.
 double typical_dispersion(std::span<const Disagreement> runs);
 
-/// Of each run whether its disagreement has a probability below one in a thousand among so many runs.
+/// For each run whether its disagreement, over the typical dispersion, has a probability below one in a
+/// thousand among so many runs.
 std::vector<bool> outliers(std::span<const Disagreement> runs);
 
-/// A run in stretches that follow one another. Runs of equal `course` repeat each other (preparation/courses.hpp) and have equally many.
+/// A run as consecutive stretches. Runs of equal `course` repeat each other (preparation/courses.hpp) and have equally many
+/// stretches.
 struct RunInStretches {
   std::vector<Reduced> stretches;
   int course = 0;
   bool outlier = false;  // down-weighted already: it does not count
 };
 
-/// How much larger the variances of the factors are than the noise explains, for two kinds of errors that it does not know: those
-/// that last for a run, and those that return in each run at the same place of its course. The latter do not show between runs, but neither do
-/// they average out over them, and on another course they are others. Unknown errors of both kinds have the variance
+/// The factor by which the variances of the factors exceed what the noise explains, because of two kinds of errors that the
+/// noise model does not contain: errors that last for a whole run, and errors that return in each run at the same place of its
+/// course. The latter make no difference between runs, but they do not average out over the runs either, and another course has
+/// other ones. With both kinds the variance is
 ///
 ///   V = V_runs + V_places - V_stretches,
 ///
-/// with sums of squares over runs, over places of the course (the stretches there of all its runs together) and over single stretches,
-/// which the first two both contain. Each is taken as its ratio to what the noise explains (Scatter), so the result is a factor as Birge's is.
+/// with sums of squares over runs, over places of the course (the stretches of all its runs at a place taken together) and over
+/// single stretches, which the first two both contain. Each is taken as its ratio to what the noise explains (Scatter), so the
+/// result is a factor on variances like Birge's.
 ///
-/// At least 1, so that runs that happen to agree claim no more than the noise allows. Unless `truth_is_spaced`, because there are errors
-/// that the noise model does not know, it is 1 if neither the scatter of runs nor that of places is significant.
+/// The result is at least 1, so that runs that happen to agree claim no more precision than the noise allows. It is 1 if
+/// neither the scatter of runs nor that of places is significant, unless `truth_is_spaced`, which shows that there are errors
+/// outside the noise model.
 ///
 /// Source  Cameron, Gelbach & Miller 2011, Journal of Business & Economic Statistics 29(2), eq. 2.11.
 double clustered_dispersion(std::span<const RunInStretches> runs, const FixedParameters& fixed,

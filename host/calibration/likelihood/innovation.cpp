@@ -35,7 +35,8 @@ class LogSum {
   std::int64_t exponent_ = 0;
 };
 
-/// Propagates the Jacobian of the state by the unknowns and sums up what the innovations say about them.
+/// Propagates the Jacobian of the state by the unknowns, and sums up the information of the innovations about
+/// them.
 class ParameterDerivatives final : public Accumulator {
  public:
   explicit ParameterDerivatives(int session) {

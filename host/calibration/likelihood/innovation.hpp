@@ -48,12 +48,12 @@ InnovationSums mean_of(std::span<const InnovationSums> passes);
 InnovationSums innovations(const Moves& moves, const NoiseModel& noise, RobustMode robust = RobustMode::none,
                            const SampleSelection& samples = {});
 
-/// The same, and in the same pass what it says of the noise.
+/// The same, and from the same pass the slope of the likelihood by the noise.
 std::pair<InnovationSums, NoiseSlope> innovations_and_noise(const Moves& moves, const NoiseModel& noise,
                                                             RobustMode robust = RobustMode::none,
                                                             const SampleSelection& samples = {});
 
-/// The same, and what innovations_by_stretch says.
+/// The same, and the sums of innovations_by_stretch.
 struct NoisePass {
   InnovationSums sums;
   std::vector<InnovationSums> stretches;
@@ -62,14 +62,15 @@ struct NoisePass {
 NoisePass innovations_and_noise(const Moves& moves, const NoiseModel& noise, RobustMode robust,
                                 const SampleSelection& samples, int stretches);
 
-/// The same pass with sums for each of so many stretches of the run, all of the same length of the wheels' path. They add up to those of
-/// the whole run. Only their information and gradient are computed.
+/// One pass with separate sums for each of `stretches` stretches of the run, which have equal path lengths of the wheels. They
+/// add up to those of the whole run. Only their information and gradient are computed.
 std::vector<InnovationSums> innovations_by_stretch(const Moves& moves, const NoiseModel& noise,
                                                    RobustMode robust, const SampleSelection& samples,
                                                    int stretches);
 
-/// The innovations themselves, in order: ahead of the robot, to its left and in heading, made independent and
-/// of variance 1 by the covariance that the filter expects. Without headings the last component is 0.
+/// The innovations in order, each in the robot's axes (ahead, left, heading), whitened by the covariance that
+/// the filter expects, so that the components are independent with variance 1. Without headings the last
+/// component is 0.
 std::vector<Eigen::Vector3d> standardised_innovations(const Moves& moves, const NoiseModel& noise,
                                                       RobustMode robust, const SampleSelection& samples);
 

@@ -34,13 +34,13 @@ struct Direction {
   Direction(double c, double s) : cosine(c), sine(s) {}
 
   Direction turned(double c, double s) const { return {c * cosine - s * sine, s * cosine + c * sine}; }
-  /// By a correction, which is a few milliradians.
+  /// Turns by a correction, which is usually a few milliradians.
   Direction turned(double angle_rad) const {
     if (std::abs(angle_rad) > 0.01) return turned(std::cos(angle_rad), std::sin(angle_rad));
     const double q = angle_rad * angle_rad;  // the first terms left out are below 1e-17
     return turned(1 - q / 2 * (1 - q / 12 * (1 - q / 30)), angle_rad * (1 - q / 6 * (1 - q / 20)));
   }
-  /// Of length 1 again, by one Newton step: each turn rounds.
+  /// Restores the length 1 by one Newton step, because each turn rounds.
   Direction of_length_one() const {
     const double unit = 1.5 - 0.5 * (cosine * cosine + sine * sine);
     return {unit * cosine, unit * sine};

@@ -8,11 +8,11 @@
 #include "host/calibration/likelihood/sample_selection.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 
-/// THE Kalman filter along a drive: prediction over arcs, update with truth samples, Huber's loss for
+/// The Kalman filter along a drive: prediction over arcs, update with truth samples, Huber's loss for
 /// outliers.
 ///
-/// The state is the robot's pose in the tracker's frame. What else is computed along the way, the derivatives
-/// above all, is the work of an Accumulator.
+/// The state is the robot's pose in the tracker's frame. Everything else, above all the derivatives, is
+/// computed by an Accumulator.
 ///
 /// Cost  linear in the samples; the filter itself allocates nothing.
 namespace astro::calibration {
@@ -24,7 +24,7 @@ struct Prediction {
   double dx_m = 0, dy_m = 0;    // in the tracker's frame
   Symmetric3 slip_covariance;   // that the step adds
 
-  /// A change of the pose from the frame of the move into the tracker's.
+  /// Rotates a change of the pose from the move's frame into the tracker's frame.
   Vector3 turned(const Vector3& v) const {
     return {cosine * v[0] - sine * v[1], sine * v[0] + cosine * v[1], v[2]};
   }
@@ -66,13 +66,13 @@ inline double huber_limit(const Update& step) { return step.has_heading ? 11.345
 /// Whether the filter uses the values of truth samples. With times alone every innovation is zero.
 enum class TruthUse { values, times };
 
-/// What a pass of the filter is made for. The calls are virtual so that the filter is compiled once and not for
-/// each accumulator; beside the matrices of a step, a call costs nothing.
+/// Computes results during a pass of the filter. The calls are virtual so that the filter is compiled once and not for each
+/// accumulator; compared with the matrix operations of a step, their cost is negligible.
 class Accumulator {
  public:
-  /// After each prediction.
+  /// Called after each prediction.
   virtual void predict(const Prediction& step) = 0;
-  /// Before the gain moves the state.
+  /// Called before the gain corrects the state.
   virtual void update(const Update& step, Motion motion) = 0;
 
  protected:

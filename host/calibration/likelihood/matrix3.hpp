@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-/// What the filter needs of vectors and matrices over a pose (x, y, theta), written out.
+/// The operations on vectors and matrices over a pose (x, y, theta) that the filter needs, written out.
 ///
 /// The filter spends its time on matrices of three rows, of which half the entries are known beforehand: they are symmetric,
 /// or the identity but for two entries. Eigen's general products compute these entries, too, and take three times as long.
@@ -76,8 +76,8 @@ inline double trace_of_product(const Symmetric3& a, const Symmetric3& b) {
 }
 
 /// F p F' with F = (1 0 x; 0 1 y; 0 0 1). An error of the heading moves a point at (a, b) from the robot's centre by (-b, a)
-/// for each radian. So this with (x, y) = (-b, a) is the covariance of that point's place and the heading, if p is that of the
-/// centre's.
+/// for each radian. So with (x, y) = (-b, a) this is the covariance of that point's position and the heading, if p is that of
+/// the robot's centre and the heading.
 template <class Number>
 SymmetricOf<Number> sheared(const SymmetricOf<Number>& p, double x, double y) {
   const Number xt = p.xt + x * p.tt, yt = p.yt + y * p.tt;

@@ -23,7 +23,7 @@ namespace {
 
 // A factor with a larger relative standard error counts as unobserved.
 constexpr double kOpen = 0.05;
-constexpr double kShowsE = 0.05;  // an e with a larger standard error is not worth a word
+constexpr double kShowsE = 0.05;  // an e with a larger standard error is not reported
 
 // Rounding can turn an infinite variance into one that is not positive.
 double root(double variance) {
@@ -47,7 +47,7 @@ class ExpectedBound {
                 const NoiseModel& noise, bool clock_known, double spacing_m);
 
   void add(const PreparedRun& run, const ClockFit& clock);
-  /// With the runs that were added. Each further one can only lessen it.
+  /// The bound with the runs that were added so far. Each further run can only reduce it.
   FactorMatrix covariance() const { return pool_.factor_covariance(); }
 
  private:
@@ -216,8 +216,8 @@ bool are_observed(const MlErrors& se, const WheelFactors& factors) {
   return se.scale < kOpen && se.E_d < kOpen && se.b_m < kOpen * factors.b_m;
 }
 
-/// Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a fit. What the first
-/// runs show is shown by all of them, so that mostly one of them is enough.
+/// Checked with the usual noise before the fit, because factors that the runs do not observe diverge in a fit. The runs are
+/// added one by one, and mostly the first one is enough.
 void require_observable(const PreparedRuns& prepared, const WheelFactors& loaded, bool clock_known) {
   ExpectedBound bound(prepared.runs, {loaded.c_r, loaded.c_l, loaded.b_m}, {}, {}, clock_known,
                       kRoughSpacing * loaded.b_m);
@@ -230,7 +230,8 @@ void require_observable(const PreparedRuns& prepared, const WheelFactors& loaded
   require_observed(se, loaded);
 }
 
-/// An e that the noise alone would allow is not taken for shown if the widened errors, which the estimate claims, do not.
+/// If e is significant by the noise alone, but not by the widened standard errors that the estimate reports, it is not
+/// estimated.
 MlEstimate estimate_with_what_is_shown(const PreparedRuns& prepared, const WheelFactors& loaded,
                                        MlOptions options) {
   MlEstimate estimate = summarise(MlFit::of(prepared, loaded, options));
@@ -248,7 +249,8 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
                        const MlOptions& options) {
   const PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
   require_variety(prepared);
-  // Not without headings: the lever arm is not known yet, and without it spins show nothing.
+  // Skipped if no run has headings, because the lever arm is not known yet, and without it spins show
+  // nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observable(prepared, loaded, options.clock_known);

@@ -16,11 +16,10 @@
 
 /// Wheel factors by maximum likelihood from whole trajectories.
 ///
-/// Unknown are c_R, c_L, b, and e where the runs show it; per session the lever arm of the tracked body and the skew of the clocks; per run its
-/// start pose and the offset between the two clocks; and the noise itself. A Kalman filter runs along each drive
-/// (innovation.hpp), its innovations are made as likely as they can be by Gauss-Newton, with Huber's weights
-/// against outliers. For normal noise that is the maximum-likelihood estimate, and it reaches the Cramer-Rao
-/// bound within a few percent.
+/// Unknown are c_R, c_L, b, and e where the runs show it; per session the lever arm of the tracked body and the skew of the
+/// clocks; per run its start pose and the offset between the two clocks; and the noise itself. A Kalman filter runs along each
+/// drive (innovation.hpp), and Gauss-Newton maximises the likelihood of its innovations, with Huber's weights against outliers.
+/// For normal noise that is the maximum-likelihood estimate, and it reaches the Cramer-Rao bound within a few percent.
 ///
 /// Frames  see trajectory.hpp. Factors are absolute: wheel travel = c * nominal travel, whatever the robot
 ///         loaded while it drove, so a calibration of a calibrated robot composes by itself.
@@ -41,10 +40,11 @@ struct MlOptions {
   bool clock_known = false;
   /// A given noise model is used as it stands; without one it is estimated.
   std::optional<NoiseModel> noise;
-  /// With a given noise model: only truth samples so far apart on the way of the wheels count, because closer ones are not
-  /// independent (MlEstimate::spacing_m). Without one it is found.
+  /// With a given noise model: the wheel path between the truth samples that are used, because closer samples are not
+  /// independent (MlEstimate::spacing_m). Without a given noise model it is estimated.
   double spacing_m = 0;
-  /// Whether e is estimated. Not said: if the runs show by two standard errors that it is not zero.
+  /// Whether e is estimated. If not set, e is estimated only if it differs from zero by two standard errors
+  /// (is_shown).
   std::optional<bool> with_e = {};
   /// Huber's loss for slips and for truth samples. Off: least squares, for comparison.
   bool robust = true;
@@ -69,16 +69,16 @@ struct RunFit {
   double chi_square = 0;  // of the innovations
   int degrees_of_freedom = 0;
   int session = 0;  // number of the session (sessions.hpp)
-  /// How far this run, without down-weighting its slips, is from all other runs in the factors: chi-square
-  /// with `disagreement_dof` degrees of freedom for a run like the others (fewer than there are factors if the run does not
-  /// observe all; 0 if there are no other runs).
+  /// How far the factors of this run, without down-weighting of its slips, are from those of all other runs: chi-square with
+  /// `disagreement_dof` degrees of freedom for a run like the others (fewer than there are factors if the run does not observe
+  /// all; 0 if there are no other runs).
   double disagreement = 0;
   int disagreement_dof = 0;
   bool outlier = false;  // probability below one in a thousand among so many runs
   std::vector<SlipEvent> slip_events;
 };
 
-/// Innovations while the robot moved in one way.
+/// The innovations during one kind of motion.
 struct KindFit {
   Motion motion = Motion::line;
   int samples = 0;
@@ -106,8 +106,8 @@ struct MlEstimate {
   MlErrors se;
   std::vector<SessionFit> sessions;  // at least one
   NoiseModel noise;                  // K: its upper 95 % limit if the data do not determine it to a third
-  /// The way of the wheels between the truth samples that the likelihood uses, if closer samples have
-  /// correlated errors that slip and tracker do not explain (whiteness.hpp); 0 if all samples are used.
+  /// The wheel path between the truth samples that the likelihood uses, if closer samples have correlated
+  /// errors that slip and tracker do not explain (whiteness.hpp); 0 if all samples are used.
   double spacing_m = 0;
   std::vector<RunFit> runs;
   std::vector<Remark> left_out;              // PreparedRuns::left_out; other useless runs are errors
@@ -124,8 +124,8 @@ struct MlEstimate {
   double scale() const { return (factors.c_r + factors.c_l) / 2; }
 };
 
-/// `loaded` are the factors in the robot. Only b is used, as a scale for what is plausible, and the factors as
-/// start values if the truth has no headings.
+/// `loaded` are the factors in the robot. Their b is the scale for what is plausible; if the truth has no headings, the factors
+/// are also the start values.
 ///
 /// Throws astro::Error in one sentence with its remedy for
 ///   no runs; a run too short, without truth, or whose two streams do not overlap (named)
@@ -137,12 +137,12 @@ struct MlEstimate {
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});
 
-/// The smallest covariance of the factors that an unbiased estimator can have (Cramer-Rao bound): the
-/// inverse of the Fisher information of these runs. `options.noise` must be given. The path comes from the
-/// wheels and `factors`, whose e counts as unknown if it is not zero; of truth only the times matter, apart from the search for the clocks and the checks
-/// of usable runs. As in the estimate, truth samples closer than two samples of the wheels do not count
-/// (preparation.hpp): with all of them, a tracker with centimetres of noise over counts at 20 Hz would seem up
-/// to 1.6 times as good as it is; at 100 Hz over 60 Hz nothing changes.
+/// The smallest covariance of the factors that an unbiased estimator can have (Cramer-Rao bound): the inverse of the Fisher
+/// information of these runs. `options.noise` must be given. The path comes from the wheels and `factors`, whose e counts as
+/// unknown if it is not zero; of truth only the times matter, apart from the search for the clocks and the checks of usable
+/// runs. As in the estimate, truth samples closer than two samples of the wheels do not count (preparation.hpp): with all of
+/// them, a tracker with centimetres of noise over counts at 20 Hz would seem up to 1.6 times as good as it is; at 100 Hz over
+/// 60 Hz nothing changes.
 ///
 /// Throws astro::Error as estimate_ml does for runs that cannot be used, and if the runs do not observe one of
 /// the three.
@@ -152,7 +152,7 @@ FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelF
 /// The standard errors of a covariance.
 MlErrors errors_of(const FactorCovariance& covariance, const WheelFactors& factors);
 
-/// Throws astro::Error unless all three factors are known to 5 %: with less, the runs do not tell them apart.
+/// Throws astro::Error unless all three factors are known to 5 %; otherwise the runs do not separate them.
 void require_observed(const MlErrors& se, const WheelFactors& factors);
 
 }  // namespace astro::calibration

@@ -16,20 +16,23 @@ namespace astro::calibration {
 namespace {
 
 constexpr int kMostSteps = 30, kMostRounds = 40;
-// The last step is within a thirtieth of the standard errors and is made, so that what is left is far less.
+// When a search has settled, its next step is within a thirtieth of the standard errors. This step is still
+// made, so that the remaining error is far less.
 constexpr Settled kSettled{1e-3, 0.002}, kRoughly{1, 0.1};
 constexpr double kLargestNoiseStep = 2;
-// If the cost is to fall by more, or by more than before while it is not near, a step of the unknowns may have to be damped.
+// A step of the unknowns may need damping if the expected fall of the cost exceeds kFarFall, or exceeds both kNearFall and the
+// fall expected in the round before.
 constexpr double kFarFall = 1e4, kNearFall = 100;
 constexpr double kLargestK_m = 1e-2;
 constexpr int kMostPhases = 4;
-constexpr int kStretches = 4;  // a side of a square: what a spin winds up and lets go of cancels within it
-// e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of round
-// would ask for an e of 2 or 3 to bend what should be lines.
+constexpr int kStretches = 4;  // one per side of a square, within which wind-up and unwinding cancel
+// e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of
+// round bend what should be lines, which would need an e of 2 or 3.
 constexpr double kShown = 2, kUncertainE = 0.02, kLargestE = 0.2;
-// Once the innovations are not independent, closer samples than these are not tried: what a spin winds up and the next line
-// lets go of must lie between two samples more often than not, and a quarter turn is 0.8 wheelbases of the wheels' way. No simple
-// multiple of that, or the samples would fall upon the same place of every corner.
+// If the innovations of all samples are not independent, this is the smallest spacing that is tried. Wind-up in a spin and
+// unwinding on the next line must lie between the same two samples more often than not, and a quarter turn is 0.8 wheelbases of
+// the wheels' path. The spacing is no simple multiple of that, because the samples would then fall on the same place of every
+// corner.
 constexpr double kLeastSpacing = 1.25;  // wheelbases
 
 /// The `power`-th root of a variance of which the logarithm changes by `change`, within limits.
@@ -44,14 +47,14 @@ double distance(const NoiseModel& a, const NoiseModel& b) {
                    2 * std::abs(std::log(b.sigma_theta_rad / a.sigma_theta_rad))});
 }
 
-/// What the next pass would say after a small step, by the last one's information.
+/// Predicts the sums of the next pass after a small step from the information of the last pass.
 void make_step(InnovationSums& sums, const Unknowns& step) {
   const Unknowns change = sums.information * step;
   sums.cost -= step.dot(2 * sums.gradient - change);
   sums.gradient -= change;
 }
 
-/// Of each stretch over several passes along one run.
+/// The mean of each stretch over several passes along one run.
 std::vector<InnovationSums> mean_of_stretches(std::span<const std::vector<InnovationSums>> passes) {
   std::vector<InnovationSums> means;
   for (std::size_t k = 0; k < passes.front().size(); ++k) {
@@ -104,7 +107,7 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
 
 void MlFit::fit(const MlOptions& options, bool started) {
   passed_ = false;
-  state_.moves.clear();  // those of a fit before lack its last step
+  state_.moves.clear();  // those of the previous fit do not contain its last step
   state_.last_steps.clear();
   robust_ = RobustMode::none;
   state_.noise = least_noise_;
@@ -128,8 +131,7 @@ void MlFit::fit(const MlOptions& options, bool started) {
   require_plausible();
 }
 
-/// The wheelbase is one number until the runs show that it is not: an e that is only noise would widen the errors of b and
-/// gain nothing.
+/// Estimates e only if the runs show it, because an e that is only noise would widen the errors of b and gain nothing.
 void MlFit::fit_e(const MlOptions& options) {
   fixed_.e = false;
   e_ = e_to_first_order();
@@ -177,8 +179,8 @@ double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
   return cost;
 }
 
-/// Noise and unknowns step together, by what one pass says of both: the information about the ones and about the others has no
-/// part in common, so that the steps of both are those of Newton.
+/// Noise and unknowns step together after one pass. The information has no cross terms between them, so both steps are Newton
+/// steps.
 void MlFit::fit_with_noise(const Settled& settled) {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {
@@ -201,7 +203,8 @@ void MlFit::fit_with_noise(const Settled& settled) {
   maximise(settled);
 }
 
-/// A step that is so small that the next pass would only confirm it: what that would say follows from the last one's information.
+/// Makes a step that is so small that another pass would only confirm it. The sums after it follow from the information of the
+/// last pass.
 void MlFit::take_last_step() {
   const std::vector<Unknowns> steps = gauss_newton_step(state_.sums, fixed_, 0, state_.unknowns.front()[kE]);
   if (!(fall_of(steps) < kSettled.fall)) return;
@@ -241,7 +244,8 @@ bool MlFit::innovations_are_independent() const {
   if (!are_independent(by_run, fitted)) return false;
   std::vector<std::vector<Eigen::Vector3d>> spacings(1);
   for (const auto& run : by_run) spacings[0].insert(spacings[0].end(), run.begin(), run.end());
-  // What comes and goes within a few samples shows in the sums over neighbours.
+  // Closer spacings are not tested here, because errors that come and go within a few samples show in the
+  // sums over neighbours.
   SampleSelection samples{std::max(2 * state_.spacing_m, kLeastSpacing / 2 * loaded_.b_m)};
   std::vector<Moves> moves;
   for (std::size_t i = 0; i < runs_.size(); ++i)
@@ -332,7 +336,7 @@ SampleSelection MlFit::samples_of(const PreparedRun& run, int phase) const {
   return selection_of(run.path_m, state_.spacing_m, static_cast<double>(phase) / state_.phases);
 }
 
-/// Of the unknowns, with the noise held.
+/// Searches the unknowns, with the noise held.
 void MlFit::maximise(const Settled& settled) {
   double damping = 0;
   passed_ = false;

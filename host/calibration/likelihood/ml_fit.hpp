@@ -13,19 +13,19 @@
 /// The search for the most likely unknowns.
 namespace astro::calibration {
 
-/// Where a search ends: by how much -2 log likelihood would fall with the next step, and how far the logarithms of the variances
-/// would go.
+/// The convergence limits of a search, for the next step: the fall of -2 log likelihood, and the change of the variances'
+/// logarithms.
 struct Settled {
   double fall = 0, noise = 0;
 };
 
-/// Whether an e is that of tyres: two standard errors from zero, known to two hundredths, and no larger than tyres can make it.
+/// Whether an e is significant and plausible: more than two standard errors from zero, with a standard error below 0.02, and no
+/// larger than tyres can cause.
 bool is_shown(const OneUnknown& e);
 
-/// Gauss-Newton, damped where the unknowns are far off. If the noise is not given, it steps together with the unknowns,
-/// and truth is thinned until the innovations are independent (whiteness.hpp). If it is not said whether e is to be estimated, that is
-/// done only where the runs show it by their noise (is_shown).
-///
+/// Gauss-Newton, damped if the unknowns are far off. If the noise is not given, it is estimated together with the unknowns, and
+/// truth is thinned until the innovations are independent (whiteness.hpp). If MlOptions::with_e is not set, e is estimated only
+/// if is_shown.
 class MlFit {
  public:
   /// The fit of these runs, which must outlive it.
@@ -42,23 +42,23 @@ class MlFit {
     return state_.unknowns;
   }  // of each run, their shared part equal
   const std::vector<InnovationSums>& sums() const { return state_.sums; }
-  /// At the same unknowns, but without down-weighting slips, however unlikely they are.
+  /// The sums at the same unknowns without down-weighting of slips.
   std::vector<InnovationSums> sums_with_full_slip_weight() const;
-  /// Of each run by its stretches, whose information and gradient add up to those of sums() (innovations_by_stretch).
+  /// For each run the sums of its stretches, whose information and gradient add up to those of sums() (innovations_by_stretch).
   std::vector<std::vector<InnovationSums>> sums_by_stretch() const;
   const NoiseModel& noise() const { return state_.noise; }
   const FixedParameters& fixed() const { return fixed_; }
-  /// The way of the wheels between the truth samples that the filter uses; of short runs less. 0: it uses all.
+  /// The wheel path between the truth samples that the filter uses; less in short runs. 0: it uses all samples.
   double spacing_m() const { return state_.spacing_m; }
-  /// What the runs say about e, estimated or, to first order, not.
+  /// The e that the runs show; to first order if it is not estimated.
   OneUnknown e() const { return e_; }
   int iterations() const { return iterations_; }
 
  private:
-  /// Where the search stands.
+  /// The state of the search.
   struct State {
     std::vector<Unknowns> unknowns;
-    /// With these unknowns, between the samples that the filter uses. They lack `last_steps`, the sums do not.
+    /// The moves between the samples that the filter uses. They do not contain `last_steps`; unknowns and sums do.
     std::vector<Moves> moves;
     std::vector<Unknowns> last_steps;  // of each run, if they were made
     NoiseModel noise;

@@ -11,11 +11,11 @@
 #include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/preparation/prepared_run.hpp"
 
-/// What the wheels alone say of a drive, given its unknowns: how the robot moved between its truth samples. Several passes of
-/// the filter share it.
+/// How the robot moved between its truth samples by its wheels alone, for given unknowns. Several passes of the filter share
+/// the result.
 namespace astro::calibration {
 
-/// The unknowns by which the wheels' path differs, in the order of Move::by.
+/// The unknowns on which the wheels' path depends, in the order of Move::by.
 inline constexpr std::array kMoveUnknowns{kCRight, kCLeft, kB, kE, kSkew, kClockOffset};
 
 /// A change of the robot's pose, in the robot's frame at its beginning.
@@ -27,14 +27,14 @@ struct Move {
   std::array<Vector3, kMoveUnknowns.size()> by{};
 };
 
-/// What a robot does that moves by `first` and then by `second`.
+/// The motion by `first` and then by `second`.
 Move joined(const Move& first, const Move& second);
 
-/// The arc of a robot with these factors, of which the wheels' nominal travels are given. Its derivatives by skew and offset of
-/// the clocks are zero.
+/// The arc that these nominal wheel travels give on a robot with these factors. Its derivatives by skew and offset of the
+/// clocks are zero.
 Move move_of(double nominal_right_m, double nominal_left_m, const WheelFactors& factors);
 
-/// The way from the truth sample of the leg before to another one.
+/// The motion from the truth sample of the previous leg to `sample`.
 struct Leg {
   std::size_t sample = 0;  // of truth, at its end
   bool moved = false;      // else the wheels stood
@@ -44,14 +44,15 @@ struct Leg {
 
 class Moves {
  public:
-  /// A leg to each truth sample that one of `selections` takes; without selections to every truth sample. The wheels' path is made of
-  /// arcs that end at each truth sample and last kLongestStep_s at most, whatever is selected. The run must outlive this.
+  /// A leg to each truth sample that one of `selections` takes; without selections to every truth sample. The wheels' path is
+  /// made of arcs that end at each truth sample and last kLongestStep_s at most, whatever is selected. The run must outlive
+  /// this.
   Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0 = kUsualKappa0,
         std::vector<SampleSelection> selections = {});
 
   /// The same legs with other unknowns.
   void change(const Unknowns& unknowns);
-  /// The same way in the legs to the truth samples that `selection` takes. Precondition: one of these legs ends at each of them.
+  /// The same motion in legs to the truth samples that `selection` takes. Precondition: one of these legs ends at each of them.
   Moves joined(const SampleSelection& selection) const;
 
   const PreparedRun& run() const { return *run_; }

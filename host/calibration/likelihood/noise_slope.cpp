@@ -33,7 +33,7 @@ Matrix3 left_over(const Update& step) {
 
 Pair trace(const MatrixOf<Pair>& a) { return a[0][0] + a[1][1] + a[2][2]; }
 
-/// Of a a, for each one of the pair.
+/// The trace of a a, for each one of the pair.
 Pair trace_of_square(const MatrixOf<Pair>& a) {
   return a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2] +
          2.0 * (a[0][1] * a[1][0] + a[0][2] * a[2][0] + a[1][2] * a[2][1]);
@@ -41,7 +41,7 @@ Pair trace_of_square(const MatrixOf<Pair>& a) {
 
 Pair swapped(const Pair& pair) { return Pair{pair[1], pair[0]}; }
 
-/// Of the product of both matrices of the pair.
+/// The trace of the product of both matrices of the pair.
 double trace_of_product(const MatrixOf<Pair>& a) {
   const Pair diagonal = a[0][0] * swapped(a[0][0]) + a[1][1] * swapped(a[1][1]) + a[2][2] * swapped(a[2][2]);
   const Pair rest = a[0][1] * swapped(a[1][0]) + a[0][2] * swapped(a[2][0]) + a[1][2] * swapped(a[2][1]);
@@ -64,9 +64,9 @@ void NoiseDerivatives::update(const Update& step, Motion) {
   correct(step, step.is_outlier ? product(step.weight, step.innovation) : weighted);
 }
 
-/// The derivative P of the state's covariance by one noise, and T of the tracker's, become (I - K H) P (I - K H)' + K T K' with the
-/// gain K, because at the best gain the covariance does not change with it. The gain changes by ((I - K H) P H' - K T) S^-1,
-/// where S is the innovation's covariance. The factors of Huber's loss are held.
+/// The derivative P of the state's covariance by one noise, and T of the tracker's, become (I - K H) P (I - K H)' + K T K' with
+/// the gain K, because at the best gain the covariance does not change with it. The gain changes by ((I - K H) P H' - K T)
+/// S^-1, where S is the innovation's covariance. The factors of Huber's loss are held.
 void NoiseDerivatives::correct(const Update& step, const Vector3& weighted) {
   const Matrix3 left = left_over(step);
   const Vector3 back = carried_back(weighted, step);
@@ -75,7 +75,7 @@ void NoiseDerivatives::correct(const Update& step, const Vector3& weighted) {
   for (std::size_t i = 0; i < 3; ++i) state_[i] += by_gain[i];
   state_ = product(left, state_);
   covariance_ = symmetric_product(product(left, covariance_), left);
-  // Of the tracker, only the position's variance is among the noises that are followed.
+  // Of the tracker's noises, only the variance of the position is followed.
   const double xy = step.loss.tracker * step.tracker_covariance.xx;
   const Matrix3& k = step.gain;
   const auto both = [&](std::size_t i, std::size_t j) {

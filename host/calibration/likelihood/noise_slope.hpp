@@ -13,12 +13,13 @@ struct NoiseSlope {
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
 };
 
-/// Propagates the derivatives of state and covariance by the noise. Those of the innovations by the gain are
-/// part of it: without them the slope would be right for the true model alone and lead to the wrong noise
-/// from every other one.
+/// Propagates the derivatives of state and covariance by the noise. This includes the change of the
+/// innovations by the gain. Without it the slope would be right only at the true noise, and a search that
+/// starts elsewhere would end at a wrong noise.
 ///
-/// The derivatives by K and sigma_xy^2 are enough. If all variances grow alike, the gains and with them the state stay as they are,
-/// and each covariance grows as the variances do: so the derivatives by all three noises add up to zero and to the covariance.
+/// The derivatives by K and sigma_xy^2 are enough. If all variances grow by one factor, the gains and the state do not change,
+/// and each covariance grows by that factor. So the sum of the derivatives by all three noises is zero for the state, and the
+/// covariance itself for a covariance.
 class NoiseDerivatives final : public Accumulator {
  public:
   explicit NoiseDerivatives(RobustMode robust) : robust_(robust) {}

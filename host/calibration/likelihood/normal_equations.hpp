@@ -24,8 +24,8 @@ struct FixedParameters {
   bool lever_yaw = false;  // no headings anywhere
 };
 
-/// One run with its own unknowns eliminated (Schur complement): what it says of the factors, and of the lever arm and the skew
-/// of its session.
+/// One run with its own unknowns eliminated (Schur complement): its information about the factors, and about the lever arm and
+/// the skew of its session.
 struct Reduced {
   SharedInformation information;
   SharedVector gradient;
@@ -33,25 +33,25 @@ struct Reduced {
 };
 Reduced reduced(const InnovationSums& sums, const FixedParameters& fixed, double damping);
 
-/// What the stretches of a run say (innovations_by_stretch), with the run's own unknowns eliminated as from the whole run, so that they add up
-/// to `reduced` of it.
+/// The same for the stretches of a run (innovations_by_stretch). The run's own unknowns are eliminated as in the whole run, so
+/// that the results add up to `reduced` of the run.
 std::vector<Reduced> reduced(const InnovationSums& run, std::span<const InnovationSums> stretches,
                              const FixedParameters& fixed);
 
-/// What several runs say together. An unknown that they do not observe (the lever arm in lines, the skew in one short run) keeps
-/// the wide variance of a weak prior, so that the others can be determined.
+/// The information of several runs together. An unknown that they do not observe (the lever arm in lines, the skew in one short
+/// run) keeps the wide variance of a weak prior, so that the others can be determined.
 class Pool {
  public:
-  /// `e`: its present value, which its prior at zero pulls on.
+  /// `e`: its present value; its prior has the mean zero.
   explicit Pool(const FixedParameters& fixed, double e = 0) : fixed_(fixed), e_(e) {}
 
   void add(const Reduced& run) { add(run, 1); }
   void take_out(const Reduced& run) { add(run, -1); }
 
-  /// Of the factors alone; rows and columns of a fixed e are zero.
+  /// The covariance of the factors alone; rows and columns of a fixed e are zero.
   FactorMatrix factor_covariance() const;
   FactorVector factor_step() const;
-  /// Of the factors and the unknowns of one session.
+  /// The covariance of the factors and the unknowns of one session.
   SharedInformation covariance(int session) const;
   SharedVector step(int session) const;
   double log_determinant() const;
@@ -73,12 +73,12 @@ class Pool {
   std::vector<Reduced> sessions_;  // sums over the runs of each
 };
 
-/// The steps of all unknowns, one entry per run; the shared part is equal in all, that of a session in its runs. `damping` is that of
-/// Levenberg and Marquardt.
+/// The steps of all unknowns, one entry per run. The part of the factors is equal in all runs, and that of a session in its
+/// runs. `damping` is that of Levenberg and Marquardt.
 std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, const FixedParameters& fixed,
                                         double damping, double e = 0);
 
-/// Of all runs, without damping.
+/// The pool of all runs, without damping.
 Pool pool_of(std::span<const InnovationSums> sums, const FixedParameters& fixed, double e = 0);
 
 struct OneUnknown {
@@ -88,8 +88,9 @@ struct OneUnknown {
 /// What the prior of e adds to -2 log likelihood.
 double prior_cost(double e);
 
-/// Logarithm of the determinant of the information about all unknowns together. Added to -2 log likelihood it
-/// gives that of the restricted likelihood, which allows for the fitted unknowns when noise is estimated. Source  Patterson & Thompson 1971, Biometrika 58(3).
+/// Logarithm of the determinant of the information about all unknowns together. Added to -2 log likelihood it gives that of the
+/// restricted likelihood, which allows for the fitted unknowns when noise is estimated. Source  Patterson & Thompson 1971,
+/// Biometrika 58(3).
 double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed);
 
 /// Variance of one run's clock offset, given the covariance of the unknowns that it shares with others.

@@ -6,7 +6,7 @@
 namespace astro::calibration {
 namespace {
 
-/// A standing wheel may flicker between two counts for hours; that is no way on which it slips.
+/// A standing wheel may flicker between two counts for hours; that does not count as travel with slip.
 constexpr double kFlicker_m = 2e-3;
 
 /// J C J'.

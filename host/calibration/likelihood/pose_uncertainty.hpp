@@ -6,7 +6,7 @@
 
 namespace astro::calibration {
 
-/// What a robot's odometry may be wrong by: slip on its way, and factors that are known so well and no better.
+/// The sources of a robot's odometry errors: slip along its path, and the uncertainty of its factors.
 struct OdometryErrors {
   double K_m = 0;  // variance of the slip of a wheel for each metre that it turns, in m^2/m
   FactorCovariance factors = FactorCovariance::Zero();
@@ -16,11 +16,11 @@ struct OdometryErrors {
 ///
 ///     P = F P0 F' + R (K Q + J C J') R'
 ///
-/// P0 is that of the pose at the start, which an error of the heading turns about that pose (F); R turns the robot's frame at
-/// the start into that of the odometry. In the robot's frame at the start, Q is the sum over all arcs of what slip of variance
-/// |d| of each wheel does to the pose at the end, and J holds the derivatives of that pose by c_R, c_L, b and e, whose
-/// covariance is C. Wrong factors are wrong in the same way all along: their errors add up with their signs, also to nothing
-/// where a robot drives back, which no noise of each step would do.
+/// P0 is the covariance of the pose at the start. F propagates it, because an error of the start heading turns the path about
+/// the start. R turns the robot's frame at the start into that of the odometry. In the robot's frame at the start, Q is the
+/// covariance of the end pose by slip of variance |d| of each wheel, summed over all arcs, and J holds the derivatives of that
+/// pose by c_R, c_L, b and e, whose covariance is C. The errors of the factors are the same all along the path. So their
+/// effects add up with their signs, and cancel if the robot drives back; independent noise in each step would not do that.
 ///
 /// Source  slip: Chong & Kleeman 1997; J by the chain rule along the path (moves.hpp).
 class PoseUncertainty {
@@ -29,7 +29,7 @@ class PoseUncertainty {
   PoseUncertainty(const WheelFactors& factors, const OdometryErrors& errors)
       : factors_(factors), errors_(errors) {}
 
-  /// The pose is set: from here on it is as uncertain as `start`, and what the wheels did before has no part in it.
+  /// Sets the covariance of the pose to `start`. What the wheels did before no longer contributes.
   void restart(double heading_rad, const Symmetric3& start = {});
 
   /// The nominal travels of the wheels since the last call.

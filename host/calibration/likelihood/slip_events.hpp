@@ -18,12 +18,11 @@ struct SlipEvent {
   double moved_m = 0;        // displacement at the same moment
 };
 
-/// At most three per run, in order of time; none for truth without headings. Half a second of truth (eight
-/// samples if that is longer) after a moment is compared with the half second before it, which the wheels carry
-/// along. At an event the rotation between them is eight times the usual one and at least 20 mrad, and it is
-/// still there two seconds later (a clock error causes one only during a spin). The first and last two seconds
-/// and a standing robot are not examined; truth may be missing for up to a second at the event itself.
-/// `unknowns` are the fitted ones of each run.
+/// At most three per run, in order of time; none for truth without headings. Half a second of truth (eight samples if that is
+/// longer) after a moment is compared with the half second before it, and dead reckoning carries both to that moment. At an
+/// event the rotation between them is eight times the usual one and at least 20 mrad, and it is still there two seconds later,
+/// whereas a clock error causes a rotation only during a spin. The first and last two seconds and a standing robot are not
+/// examined; truth may be missing for up to a second at the event itself. `unknowns` are the fitted ones of each run.
 /// Cost  linear in the samples.
 std::vector<std::vector<SlipEvent>> find_slip_events(std::span<const PreparedRun> runs,
                                                      std::span<const Unknowns> unknowns);

@@ -33,7 +33,8 @@ BlockSums sums_over(std::span<const std::vector<Eigen::Vector3d>> runs, std::siz
   return sums;
 }
 
-/// One kick would outweigh all that thousands of others say: none counts for more than 99 % of normal ones.
+/// A single large innovation would outweigh thousands of others, so none counts for more than the 99 %
+/// quantile of normal ones.
 constexpr double kFarSquared = 11.345;
 
 Eigen::Vector3d mean_square(std::span<const Eigen::Vector3d> innovations) {

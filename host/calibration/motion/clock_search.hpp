@@ -30,8 +30,8 @@ struct ClockFit {
 /// Truth without headings does not show turning. So the search also assumes bodies at some distances ahead of
 /// the centre, whose positions show a spin.
 ///
-/// If several offsets fit equally well within noise, one within 1 s is taken: clocks are that close by design,
-/// and seldom by chance. Otherwise `rival_offset_s` says that the choice is ambiguous.
+/// If several offsets fit equally well within noise, one within 1 s is taken, because synchronised clocks are that close and
+/// others seldom are. Otherwise `rival_offset_s` says that the choice is ambiguous.
 ///
 /// `wheelbase_m` weighs turning against driving and need only be roughly right. The directions of turning do
 /// not matter.

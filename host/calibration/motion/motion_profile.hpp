@@ -60,8 +60,8 @@ class BodyPath {
   Stream<double> heading_rad_;
 };
 
-/// The most steps of time into which a recording is divided. A drive of 40 minutes has so many of 25 ms; one wrong time
-/// can make a recording seem decades long.
+/// The largest number of time steps into which a recording is divided. A drive of 40 minutes has so many steps of 25 ms. The
+/// limit is needed because one wrong time can make a recording seem decades long.
 inline constexpr double kMostSteps = 100'000;
 
 /// The path of a point `lever_m` ahead of a nominal robot's centre, from its wheels alone. Before and after

@@ -8,7 +8,7 @@
 namespace astro::calibration {
 namespace {
 
-// Noise relative to the variation of the wheels' speed that hides nothing of it.
+// The noise, relative to the variation of the wheels' speed, that does not hide this variation.
 constexpr double kWantedNoise = 0.2;
 constexpr double kLongestHalfWindow_s = 0.5;
 constexpr double kBeyond_s =

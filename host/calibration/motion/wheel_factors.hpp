@@ -2,8 +2,8 @@
 
 namespace astro::calibration {
 
-/// The curvature, in units of 1 / b, at which half of e acts. Real drives fit alike with a fifth of this or with five times as
-/// much, so a calibration does not estimate it.
+/// The curvature, in units of 1 / b, at which half of e acts. Real drives fit equally well with a fifth or with five times of
+/// this, so a calibration does not estimate it.
 inline constexpr double kUsualKappa0 = 0.12;
 
 /// The factors that a robot's odometry uses: wheel travel = c * nominal travel, and b is the wheelbase. Gentle arcs turn about

@@ -28,7 +28,8 @@ WheelState WheelPath::at(double time_s) const {
   const WheelSample& before = samples_[i > 0 ? i - 1 : i];
   const WheelSample& after = samples_[i + 2 < samples_.size() ? i + 2 : i + 1];
   const double span_s = b.time_s - a.time_s;
-  // A fit asks a million times; a division costs as much as the rest of a wheel's cubic.
+  // Reciprocals, because a fit calls this a million times, and a division costs as much as the rest of a
+  // wheel's cubic.
   const double per_span = 1 / span_s, per_in = 1 / (b.time_s - before.time_s),
                per_out = 1 / (after.time_s - a.time_s);
   const double s = per_span * (time_s - a.time_s);

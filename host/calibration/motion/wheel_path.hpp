@@ -9,9 +9,9 @@
 /// Wheel travel between the samples of the encoders, and the search for the interval between samples that holds a moment.
 namespace astro::calibration {
 
-/// The interval i between samples that holds a moment, time_of(samples[i]) <= time_s < time_of(samples[i + 1]); the first one before all
-/// of them and the last one behind. `last`: where the search of before ended, and now this one; moments are mostly asked for in
-/// order, and then nothing has to be searched.
+/// The index i of the interval between samples that contains `time_s`, time_of(samples[i]) <= time_s < time_of(samples[i + 1]).
+/// It is the first interval for times before all samples, and the last one for times after. `last`: the result of the previous
+/// search; it is updated. Calls mostly come in order of time, and then no search is needed.
 ///
 /// Precondition: two samples at least, whose times do not decrease. Cost  constant next to `last`, logarithmic elsewhere.
 template <class Sample, class TimeOf>

@@ -7,11 +7,11 @@
 
 namespace astro::calibration {
 
-/// The course of each run, numbered from 0 in the order of their first runs. Runs of one session repeat a course if their wheels went equally
-/// far and turned the robot equally far the same way round, both within a twentieth of the path: squares of one size, driven clockwise. Runs
-/// that are alike by chance do no harm, because their errors at equal places have nothing in common.
+/// The course of each run, numbered from 0 in the order of first runs. Runs of one session have the same course if their path
+/// lengths and their net turns (right wheel minus left wheel) agree within 5 % of the path, for instance squares of one size,
+/// driven clockwise. A chance match does no harm, because the errors of such runs at equal places are not correlated.
 ///
-/// Cost  the runs times the courses.
+/// Cost  number of runs times number of courses.
 std::vector<int> find_courses(std::span<const PreparedRun> runs);
 
 }  // namespace astro::calibration

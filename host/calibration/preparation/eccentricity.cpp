@@ -16,7 +16,8 @@ namespace astro::calibration {
 namespace {
 
 constexpr double kOnce = 1;
-// What is compared with it. Multiples of gears (1/2, 2) and a wheel of another size (near 1) are left out.
+// The waves per turn that are compared with it. Those of gears (1/2, 2) and, near 1, of a wheel of another
+// size are left out.
 constexpr std::array kPerTurn{0.6, 0.7, 0.8, 1.25, 1.4, 1.6};
 constexpr double kFewestTurns = 10;
 constexpr double kShown = 4;  // standard errors
@@ -55,7 +56,8 @@ std::vector<Pair> pairs_of(const PreparedRun& run, const ClockFit& clock, const 
     };
     while (to + 1 < readings.size() && std::abs(travelled_m()) < half_turn_m) ++to;
     const double way_m = run.path_m[to] - run.path_m[from];
-    // Not where the robot spun or turned back in between: it goes a longer way then. Nor across a gap of truth.
+    // Skips pairs between which the robot spun or turned back, because its path is longer then, and pairs across a gap of
+    // truth.
     if (std::abs(travelled_m()) < half_turn_m || way_m > 1.2 * half_turn_m) continue;
     pairs.push_back({gains[to] - gains[from], readings[from], readings[to]});
   }
@@ -89,22 +91,23 @@ std::optional<WaveFit> wave_of(const std::vector<Pair>& pairs, double per_turn, 
     right_side += row * pair.gained_rad;
   }
   const Eigen::LDLT<Eigen::Matrix4d> ldlt(normal);
-  // On one long line both wheels turn alike, and nothing tells their waves apart.
+  // On one long line both wheels turn alike, so their waves cannot be separated.
   const auto pivots = ldlt.vectorD().array();
   if (!(pivots.minCoeff() > 1e-3 * pivots.maxCoeff())) return {};
   const Wave wave = ldlt.solve(right_side);
   return WaveFit{wave, ldlt.solve(Eigen::Matrix4d::Identity()), wave.dot(right_side)};
 }
 
-/// What one run shows once per turn, left and right, with the squares that noise alone would have there.
+/// The waves once per turn in one run, left and right, with the squares that noise alone would have there.
 struct RunWaves {
   Wave wave;
   std::array<double, 2> noise_m2{};
 };
 
-/// The noise is that of the other waves. If a quarter turn of the robot is nearly whole turns of a wheel, both wheels lead and lag alike
-/// on all sides of a square, but only once per turn; so what the others explain is also brought to once per turn by how well the run
-/// shows each, and the larger one counts.
+/// The noise is that of the other waves. If a quarter turn of the robot is nearly whole turns of a wheel, both wheels lead and
+/// lag alike on all sides of a square, but only with the wave once per turn, so this one is less certain than the others.
+/// Therefore the squares that the others explain are also scaled by the covariance of the wave once per turn, and the larger
+/// result counts.
 std::optional<RunWaves> waves_of(const PreparedRun& run, const ClockFit& clock, const WheelFactors& factors) {
   const double turn_m = run.source->wheel_turn_m;
   if (!(turn_m > 0) || !run.has_headings || run.distance_m < kFewestTurns * turn_m) return {};
@@ -142,11 +145,12 @@ Eccentricity of_wheel(const std::vector<RunWaves>& runs, int wheel) {
     spread += weight * weight * noise_m2;
     out.phases_rad.push_back(std::atan2(wave[1], wave[0]));
   }
-  // Of noise alone the square would be `noise`. Each of its two directions has half of it.
+  // With noise alone, `squares` would be `noise`, and each of the two directions has half of it.
   out.amplitude_m = runs.empty() ? 0 : std::sqrt(std::max(0.0, squares - noise) / weights);
   out.standard_error_m =
       runs.empty() ? std::numeric_limits<double>::infinity() : std::sqrt(spread / 2) / weights;
-  // The square of noise alone has the standard deviation of its mean, as a chi-square of two has.
+  // With noise alone, the standard deviation of a square equals its mean, as for chi-square with two degrees
+  // of freedom.
   out.significant =
       out.amplitude_m > kShown * out.standard_error_m && squares > noise + (kShown + 1) * std::sqrt(weights);
   return out;

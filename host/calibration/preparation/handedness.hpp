@@ -3,7 +3,7 @@
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 
-/// Whether wheels and ground truth have the same handedness: they turn the same way.
+/// Checks that wheels and ground truth have the same handedness, so that both turn the same way.
 namespace astro::calibration {
 
 /// Throws astro::Error naming the run for headings that never change although the wheels turn the robot;

@@ -7,7 +7,7 @@
 namespace astro::calibration {
 namespace {
 
-// A prior of 1 m, in units of the residuals, keeps what a drive does not show finite.
+// A prior of 1 m, in units of the residuals, keeps the variance of what a drive does not show finite.
 constexpr double kWide_m = 1;
 // Residuals of pieces are a few millimetres. With hardly more pieces than unknowns they may come out smaller by chance.
 constexpr double kLeastResidual_m = 5e-4;

@@ -8,18 +8,18 @@
 
 namespace astro::calibration {
 
-/// Where the tracked body sits on the robot, as one drive shows it.
+/// Where the tracked body sits on the robot, estimated from one drive.
 struct Mounting {
   LeverArm lever;
   Eigen::Matrix3d covariance =
-      Eigen::Matrix3d::Identity();  // of x, y, yaw; wide in a direction that the drive does not show
+      Eigen::Matrix3d::Identity();  // of x, y, yaw; large where the drive does not determine them
 };
 
-/// By linear least squares with the turn rates of the wheels given: the displacements of the body are linear in the lever arm and
-/// in cosine and sine of its yaw. These are not forced onto the unit circle, so that wheels of a slightly wrong size
-/// shorten both, and neither the lever arm nor the yaw.
+/// Linear least squares for given turn rates of the wheels: the displacements of the body are linear in the lever arm and in
+/// cosine and sine of its yaw. Cosine and sine are not forced onto the unit circle, so a small error of the wheels' sizes
+/// scales both of them and changes neither the lever arm nor the yaw.
 ///
-/// Nothing without displacement, which is what shows the yaw.
+/// Returns nothing if the pieces have hardly any displacement, because only displacement shows the yaw.
 std::optional<Mounting> mounting_of(std::span<const RelativePose> pieces, const TurnRates& rates);
 
 }  // namespace astro::calibration

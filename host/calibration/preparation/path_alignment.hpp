@@ -14,14 +14,14 @@
 /// Dead-reckoned paths, and their rigid alignment with truth.
 namespace astro::calibration {
 
-/// The wheels' path from moment to moment of the robot's clock.
+/// Walks along the wheels' path, forwards in time on the robot's clock.
 class WheelWalk {
  public:
   /// The samples must outlive this.
   WheelWalk(std::span<const WheelSample> wheels, double begin_s)
       : path_(wheels), at_s_(begin_s), at_(path_.at(begin_s)) {}
 
-  /// On to another moment: calls `visit` with the travel of the wheels in steps short enough to be arcs of constant twist.
+  /// Advances to `to_s` and calls `visit` with the wheels' travel in steps that are short enough to be arcs of constant twist.
   template <class Visit>
   void go(double to_s, Visit visit) {
     const double from_s = at_s_;

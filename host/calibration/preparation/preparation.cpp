@@ -26,7 +26,8 @@ constexpr double kLongestWheelGap_s = 0.3, kWheelGapMotion_m = 0.01;
 // A drive with less than both was a push, not a drive.
 constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
 constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9;
-// With the skew of the runs before: if a run fits worse than this, or than they did by so much, its clock may have been set up anew.
+// A run is first tried with the skew of the run before. If its correlation is below kSurelyRight, or below that of the run
+// before by more than kNotWorse, its clock may have been reset, and its skew is searched anew.
 constexpr double kSurelyRight = 0.9, kNotWorse = 0.04;
 // Truth beyond the ends of the odometry would count as standing still, so truth within the error of the clock
 // offset from these ends is not used.
@@ -38,7 +39,7 @@ constexpr double kLongWindow_s = 0.5;
 // which jumps to several mm/s at a single count; here one count in the window is 0.4 mm/s (reference robot).
 constexpr double kSlowest_mps = 0.002;
 
-// Of one stream.
+// Checks the times of one stream.
 template <class Sample>
 void require_times(const std::string& name, const char* stream, const std::vector<Sample>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -98,7 +99,8 @@ MotionExtent extent_between(const WheelState& a, const WheelState& b, const Whee
   return {std::abs(left + right) / 2, std::abs(right - left) / factors.b_m};
 }
 
-/// The wheels within so much of a moment. A path of its own for each end, because a path finds times near its last one at once.
+/// The motion of the wheels within half_window_s of a moment. Each end has its own path, because a path finds times near its
+/// last one without a search.
 class Around {
  public:
   Around(std::span<const WheelSample> wheels, double half_window_s)
@@ -127,13 +129,14 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density densit
   prepared.source = &run;
   prepared.has_headings = mostly_headings(run.truth);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
-  // Slightly less, so that jitter does not make a multiple of the tracker's period miss it.
+  // Slightly less than the wheels' period, so that a sample that is late or early by jitter is not skipped.
   const double spacing_s = density == Density::all ? 0 : 0.9 * median_period_s(run.wheels);
   double last_s = -std::numeric_limits<double>::infinity();
   for (const BodySample& sample : run.truth) {
     if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
     if (prepared.has_headings && !std::isfinite(sample.theta_rad)) continue;
-    // In the tracker's own time: the selection of samples must not depend on the estimated clock offset.
+    // Compares the tracker's own times, because the selection of samples must not depend on the estimated
+    // clock offset.
     if (sample.time_s - last_s < spacing_s) continue;
     last_s = sample.time_s;
     const double u = clock.robot_time_s(sample.time_s, prepared.clock_middle_s);
@@ -189,7 +192,7 @@ void require_motion(const PreparedRun& run) {
         PreparationProblem::too_short, {run.source->name});
 }
 
-/// `before`: the clock of a run before, of which the skew is taken if it fits.
+/// `before`: the clock of the run before; its skew is used if it fits.
 ClockFit clock_of(const Trajectory& run, const WheelFactors& loaded, const std::optional<ClockFit>& before) {
   if (!before) return search_clock(run, loaded.b_m, {});
   const ClockFit clock = search_clock(run, loaded.b_m, before->skew);

@@ -12,8 +12,8 @@
 /// Prepares recorded runs for the filter, or says in one sentence why a run cannot be used.
 namespace astro::calibration {
 
-/// What keeps a run from being calibrated from. Values: its name, if there is one; then of times_missing,
-/// times_run_backwards and times_jump the stream, of too_little_truth the number of samples.
+/// Why a run cannot be used. Values: its name, if there is one; then the stream (times_missing,
+/// times_run_backwards, times_jump) or the number of samples (too_little_truth).
 enum class PreparationProblem {
   no_runs,
   no_odometry,
@@ -36,17 +36,17 @@ enum class PreparationProblem {
 /// Which samples of truth are used.
 enum class Density {
   all,
-  /// No two samples closer than two samples of the wheels. In between, the travel of the wheels is interpolated,
-  /// so the errors of all truth samples there would be correlated and count too much. Rejected: averaging them,
-  /// because that smooths the slip as well (K comes out 13 % too small).
+  /// No two samples are closer than two samples of the wheels. In between, the travel of the wheels is interpolated, so the
+  /// errors of all truth samples there would be correlated and count too much. They are not averaged instead, because that
+  /// smooths the slip as well (K comes out 13 % too small).
   independent
 };
 
 struct PreparedRuns {
   std::vector<PreparedRun> runs;
   std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
-  /// For each run that was left out without harm: the reason and the remedy. Such a run is a spin with unknown
-  /// clock under positions that stand still.
+  /// The reason and the remedy for each run that is left out without harm: a spin during which the positions stand still, so
+  /// that they show neither its clock offset nor its rotation.
   std::vector<Remark> left_out;
 };
 

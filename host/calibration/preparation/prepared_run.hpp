@@ -16,11 +16,11 @@ struct PreparedRun {
   const Trajectory* source = nullptr;
   std::vector<BodySample> truth;
   std::vector<Motion> motion;   // between the previous sample and this one
-  std::vector<double> path_m;   // the way of the wheels from the first sample to each, the mean of both
-  std::vector<double> knots_m;  // the way by which samples are chosen (wheel_way.hpp)
+  std::vector<double> path_m;   // path length of the wheels up to each sample, the mean of both
+  std::vector<double> knots_m;  // path length by which samples are chosen (wheel_way.hpp)
   int session = 0;              // runs of one session share lever arm and skew (sessions.hpp)
   double clock_middle_s = 0;    // tracker's time at which the skew has no effect
-  bool has_headings = true;     // of all samples; else none is used
+  bool has_headings = true;     // of all samples; if false, no heading is used
   double distance_m = 0, rotation_rad = 0;
   std::array<MotionExtent, 4> extent{};  // by Motion
 };

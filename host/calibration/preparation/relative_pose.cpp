@@ -13,10 +13,11 @@ namespace astro::calibration {
 namespace {
 
 constexpr double kLeastPiece_m = 0.3, kLeastPiece_rad = 0.5;
-// During a gap of the tracker the robot may have turned by more than half a turn.
+// Limits the turn by the wheels in a piece, because a gap of the tracker may hide more than half a turn,
+// which headings do not show.
 constexpr double kSurely_rad = 2.5;
 
-// The displacements as 0 = row * (b, x, y, cos yaw, sin yaw), two rows a piece.
+// The displacements as 0 = row * (b, x, y, cos yaw, sin yaw), with two rows for each piece.
 Eigen::Matrix<double, 5, 5> displacement_normal(std::span<const RelativePose> pieces,
                                                 const TurnRates& rates) {
   Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
@@ -34,7 +35,7 @@ Eigen::Matrix<double, 5, 5> displacement_normal(std::span<const RelativePose> pi
 /// The largest sum of a column's magnitudes.
 double norm(const Eigen::Matrix3d& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); }
 
-/// Of a symmetric matrix, for its smaller eigenvalue.
+/// The eigenvector of a symmetric matrix for its smaller eigenvalue.
 Eigen::Vector2d least_eigenvector(const Eigen::Matrix2d& a) {
   const double largest_rad = std::atan2(a(0, 1) + a(1, 0), a(0, 0) - a(1, 1)) / 2;
   return {-std::sin(largest_rad), std::cos(largest_rad)};

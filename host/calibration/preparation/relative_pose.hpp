@@ -31,7 +31,7 @@ std::vector<RelativePose> pieces_of(const PreparedRun& run, const ClockFit& cloc
 struct RelativePoseFit {
   double r_left = 0, r_right = 0, b_m = 0;
   LeverArm sensor;
-  double condition = 1;  // of the equations for b and the lever arm: the larger, the less the pieces tell
+  double condition = 1;  // of the equations for b and the lever arm; large if poorly determined
 };
 
 /// Heading per unit of travel of each wheel: that of the left one is negative.
@@ -39,7 +39,8 @@ struct TurnRates {
   double left = 0, right = 0;
 };
 
-/// Nothing if the pieces do not determine both: straight ones alone, or spins alone. Where the sensor sits has no effect.
+/// Returns nothing if the pieces do not determine both rates, because all are straight or all are spins. The sensor's place on
+/// the robot has no effect.
 std::optional<TurnRates> fit_headings(std::span<const RelativePose> pieces);
 
 /// The robot's pose at the end of a piece, seen from its pose at the start; lengths in wheelbases.

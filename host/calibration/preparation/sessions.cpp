@@ -13,11 +13,11 @@
 namespace astro::calibration {
 namespace {
 
-// The same body comes out a little elsewhere in every drive, by its slip and by what the tyres do in spins. A difference counts if
-// it exceeds both these, and by far what noise explains.
+// Slip and the tyres in spins shift the estimated mounting of the same body a little from drive to drive. Two mountings differ
+// if their position or their yaw differs by at least these limits, and by far more than noise explains.
 constexpr double kSame_m = 0.01, kSame_rad = 0.02;
 constexpr double kUnlikely = 25;  // squared standard errors, of all three together
-// The search for the clocks finds the skew of a run of half a minute to half of this.
+// The clock search finds the skew of a run of half a minute to half of this.
 constexpr double kSameSkew = 0.012;
 
 /// What is known of a session so far.
@@ -52,7 +52,7 @@ bool differ(const Mounting& a, const Mounting& b) {
   return apart.dot(covariance.ldlt().solve(apart)) > kUnlikely;
 }
 
-/// The better known one of two mountings that do not differ.
+/// Keeps the more precise one of two mountings that do not differ.
 void learn(std::optional<Mounting>& known, const std::optional<Mounting>& run) {
   if (run && (!known || run->covariance.trace() < known->covariance.trace())) known = run;
 }

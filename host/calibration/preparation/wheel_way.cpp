@@ -6,12 +6,12 @@
 namespace astro::calibration {
 namespace {
 
-/// A standing wheel may flicker between two counts for minutes; that is no way.
+/// A standing wheel may flicker between two counts for minutes; that does not count as path.
 constexpr double kFlicker_m = 2e-3;
 
-/// Of the way of a robot that drives on, after which tyres and a castor have let go of what a spin wound up.
+/// The path after which a robot that drives on has unwound its tyres and castor.
 constexpr double kUnwinding_m = 0.01;
-/// In wheelbases of the wheels' way: as far as a spin can wind up.
+/// The path of the wheels, in wheelbases, over which a spin can wind up.
 constexpr double kWindingUp = 0.5;
 
 bool turns_or_stands(Motion motion) { return motion == Motion::spin || motion == Motion::rest; }
@@ -55,7 +55,7 @@ std::vector<double> way_of_knots(const PreparedRun& run, double wheelbase_m) {
       ++from;
       continue;
     }
-    // Motion is that before a sample.
+    // motion[i] is the motion before sample i.
     const double begin_m = run.path_m[from > 0 ? from - 1 : 0], end_m = run.path_m[to - 1];
     const double held_m = std::min((end_m - begin_m) / 2, kWindingUp * wheelbase_m);
     for (std::size_t i = from; i < to; ++i) {

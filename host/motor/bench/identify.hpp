@@ -19,8 +19,8 @@
 ///          stall fault.
 namespace astro::motor {
 
-/// What ends a measurement of the motors. All have the wheel; `out_of_room` has how far it may go in metres,
-/// too.
+/// Why a measurement of the motors ended. Values: the wheel; for out_of_room also how far it may go, in
+/// metres.
 enum class BenchProblem { out_of_room, counts_backward, stands, stands_at_little_voltage };
 
 struct Bounds {

@@ -9,7 +9,7 @@
 
 namespace astro::motor {
 
-/// What a robot's parameters say of its wheels and their control; left, right.
+/// A robot's parameters about its wheels and their control; left, right.
 struct RobotFacts {
   std::array<double, 2> count_m{};  // travel of one count, wheel factors included
   double counts_per_motor_rev = 0, gear_ratio = 0, wheel_diameter_m = 0;

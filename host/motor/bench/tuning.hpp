@@ -43,9 +43,9 @@ RobotFacts with_parameters(RobotFacts robot, const ControlParameters& values);
 /// least 0.98, and standard errors within 5 % of kV and 20 % of kA.
 std::optional<Side> poorly_measured(const IdentifiedMotors& motors);
 
-/// How many times kV of the measured motors is that of the robot's feed-forward, if it differs by more than a
-/// calibration explains (factor 1.6): other motors or wheels, or wrong counts per revolution. nullopt if it
-/// does not, or without a feed-forward.
+/// The ratio of the motors' measured kV to that of the robot's feed-forward, if it differs from 1 by more
+/// than a calibration explains (factor 1.6). Then there are other motors or wheels, or the counts per
+/// revolution are wrong. nullopt if it does not differ so much, or without a feed-forward.
 std::optional<double> unlikely_kV_ratio(const MotorModel& mean, const RobotFacts& robot);
 
 }  // namespace astro::motor

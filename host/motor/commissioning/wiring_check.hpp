@@ -23,7 +23,8 @@ struct Look {
   bool again = false;            // it was missed: the motor is driven once more
 };
 
-/// Callbacks for progress and questions. Nothing is armed while one of them runs, but for those of `drive`.
+/// Callbacks for progress and questions. Nothing is armed while one of them runs, except for those of
+/// `drive`.
 struct WiringHooks {
   robot::DriveHooks drive;
   /// This motor is about to be driven forward.

@@ -16,8 +16,8 @@
 ///          steps would cause more than 0.2 V rms on the motors.
 namespace astro::motor {
 
-/// What keeps a loop from being designed. The last three are about a bandwidth; they have the wanted one and
-/// the largest possible one in Hz and, if there is one, the observer_bandwidth that would allow the wanted
+/// Why a loop cannot be designed. The last three are about a bandwidth. Their values are the wanted and the
+/// largest possible bandwidth in Hz and, if there is one, the observer_bandwidth that would allow the wanted
 /// one.
 enum class DesignProblem { no_motor_model, encoder_too_coarse, encoder_rattles, observer_lags, tick_lags };
 

@@ -32,7 +32,7 @@
 ///            Automatica 6 (1970).
 namespace astro::motor {
 
-/// What keeps the samples of a wheel from giving a model.
+/// Why the samples of a wheel give no model.
 enum class MotorProblem { does_not_follow, turned_too_little };
 
 /// One wheel at one control tick. The voltage is on the motor from this sample to the next.

@@ -10,8 +10,8 @@
 /// Counts per revolution from rolling the robot by hand along a tape measure.
 namespace astro::motor {
 
-/// What a roll finds. `other_gear` has the ratio that was found and the robot's, `wheels_differ` how many
-/// times their counts the left and the right wheel give, `counts_nothing` the wheel.
+/// What a roll finds. Values: the ratio that was found and the robot's (other_gear); counted over expected
+/// counts of the left and the right wheel (wheels_differ); the wheel (counts_nothing).
 enum class RollProblem {
   other_decoding,
   other_gear,
