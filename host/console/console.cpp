@@ -41,7 +41,8 @@ void to_stderr(std::string_view text) {
   std::fflush(stderr);
 }
 
-/// Breaks sentences at blanks where a terminal would break them anywhere. Rows of a table, which have more than one blank in a row, stay.
+/// Breaks lines at blanks if they are too long for the terminal. Rows of a table stay as they are; they contain two blanks
+/// in a row.
 std::string fitted_to_terminal(const std::string& text) {
   if (!stderr_is_terminal()) return text;
   const std::size_t columns = terminal_size(STDERR_FILENO).columns;

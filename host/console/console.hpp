@@ -44,9 +44,9 @@ bool confirm(const std::string& question);
 /// Ctrl-C.
 std::string ask(const std::string& prompt);
 
-/// The same for a question whose answer moves a robot or writes its flash: what was typed at a terminal before the
-/// question was shown is not its answer and is discarded, and the question is shown only when no line has come for a
-/// moment, so that neither is a key that bounces. Piped answers are taken in their order.
+/// The same for a question whose answer moves a robot or writes its flash. What was typed at a terminal before the question
+/// is discarded, because it is not its answer. The question is shown only when no line has come for 0.3 s, so that a
+/// bouncing key is no answer either. Piped answers are taken in their order.
 std::string ask_before_acting(const std::string& prompt);
 
 /// When progress is reported where no line can be rewritten, as in a file or a pipe: after 10 s, then each

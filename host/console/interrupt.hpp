@@ -6,7 +6,7 @@ namespace astro::console {
 /// at once.
 void watch_for_interrupt();
 
-/// Whether the flag is set. A drive asks it (robot::DriveHooks::interrupted); an interrupted drive stops the
+/// Whether the flag is set. A drive polls it (robot::DriveHooks::interrupted); an interrupted drive stops the
 /// robot and throws Interrupted, and main exits with 130.
 bool interrupted();
 

@@ -8,8 +8,8 @@
 
 namespace astro::console {
 
-/// For a command that answers a question, as grep does: it did its work, and the answer is no. The program ends
-/// with kAnswerIsNo.
+/// To be called by a command that answers a question, as grep does, if the answer is no: the command did its work. The
+/// program ends with kAnswerIsNo.
 void answer_no();
 inline constexpr int kAnswerIsNo = 3;
 
@@ -17,15 +17,15 @@ inline constexpr int kAnswerIsNo = 3;
 /// wrong usage into one sentence that names the wrong word and the help that explains it.
 class Program {
  public:
-  /// From here on the program complains under this name, which has to live as long as the process.
+  /// From here on error messages begin with `name`, which must live as long as the process.
   Program(const char* name, const char* what);
   ~Program();
 
   /// The command to which options and subcommands are added.
   Command command() { return Command(app_.get()); }
   void version(const std::string& text);
-  /// The words between `begin` and `end`, or the last one, look like options and are those of another program. Each becomes a value
-  /// of an option whose name is `begin`, which a command has or has not.
+  /// The words between `begin` and `end`, or the end of the command line, look like options but belong to another program.
+  /// Each becomes a value of the option `begin`, which a command may or may not have.
   void foreign_words(const std::string& begin, const std::string& end);
 
   /// Returns the exit code: 0, what answer_no() says, or 2 after a sentence on stderr. Exceptions of the callbacks

@@ -11,8 +11,8 @@ namespace astro::report {
 std::string verdict_sentence(const calibration::FigureOfMerit& before,
                              const calibration::FigureOfMerit& after);
 
-/// What can be said without the figures beside it: "4.5 times smaller"; "at least 2.8 times smaller" where
-/// there is no upper bound; "not certainly changed" where the interval contains 1.
+/// The improvement in words that need no figures beside them: "4.5 times smaller"; "at least 2.8 times
+/// smaller" where there is no upper bound; "not certainly changed" where the interval contains 1.
 std::string claim(const calibration::Improvement& improvement);
 
 /// "4.5 ± 0.7 (95 %: 3.2 to 6.9)"; "82 (95 %: at least 10)" where there is no upper bound, because the

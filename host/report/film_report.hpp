@@ -18,7 +18,7 @@ struct FilmReportInput {
   std::vector<Plot> plots;
 };
 
-/// Equal inputs give equal bytes; every text of the input is escaped. Size: that of the picture and its third, and the plotting
+/// Equal inputs give equal bytes; every text of the input is escaped. Size: four thirds of the picture's, and the plotting
 /// library of the template.
 std::string render_film_html(const FilmReportInput& input);
 

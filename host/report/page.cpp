@@ -26,7 +26,7 @@ std::string render_page(const std::string& title, const std::vector<Section>& se
 }
 
 void require_replaceable(const std::filesystem::path& path) {
-  // From the head of the template.
+  // A text from the head of the template, which identifies a page of this kind.
   require_own_kind(path,
                    "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:", "report");
 }

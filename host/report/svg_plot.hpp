@@ -15,7 +15,7 @@ struct PlotLine {
 struct Plot {
   std::string caption, x_name, y_name;
   std::vector<PlotLine> lines;
-  bool equal_axes = false;  // a metre is as long upward as to the right
+  bool equal_axes = false;  // one unit is equally long on both axes
 };
 
 /// A figure that needs no script: SVG inside <figure>, with a frame, round numbers at the axes, and each line in a colour of its

@@ -12,7 +12,8 @@ Section drive_comparison(const ReportInput& input);
 /// The parameters before and after, with standard errors.
 Section parameter_table(const ReportInput& input);
 
-/// All phases in a row; only for three and more, as two are the parameter table.
+/// The loaded factors of all phases. Empty if a phase lacks them, and for fewer than three phases, because the parameter
+/// table shows two.
 Section history(const ReportInput& input);
 
 /// Figures of merit of the squares, phase by phase, with improvement factors. Empty for fewer than two phases.

@@ -37,7 +37,7 @@ std::vector<Advice> all_advice() {
 std::string in_words(const Remark& remark) {
   fmt::dynamic_format_arg_store<fmt::format_context> values;
   for (const std::string& value : remark.values) values.push_back(value);
-  if (remark.values.empty()) values.push_back("...");  // where the place that throws knows no name
+  if (remark.values.empty()) values.push_back("...");  // stands for {0} if the error has no values
   return remark.sentence + fmt::vformat(words_for(remark.kind), values);
 }
 

@@ -8,20 +8,22 @@
 
 namespace astro::commands {
 
-/// An option or a subcommand that helps against a kind of error. It stands beside the command that has it.
+/// An option or a subcommand that helps against one kind of error. It is defined beside the command that has
+/// it.
 struct Advice {
   Kind kind;
   const char*
-      words;  // behind the error's sentence, with their joint: "; give {0} with --tape". {0} is the first value.
+      words;  // after the error's sentence, with punctuation: "; give {0} with --tape". {0}: the first value
 };
 
-/// Makes a command's advice known. `all` has to live as long as the program; the same again changes nothing.
+/// Registers a command's advice. `all` must live as long as the program; registering it again changes
+/// nothing.
 void advise(std::span<const Advice> all);
 
-/// All that is known.
+/// All registered advice.
 std::vector<Advice> all_advice();
 
-/// The whole sentence of an error for a person, with the advice on its kind if a command has some.
+/// The error's sentence for a person, followed by the advice on its kind if any is registered.
 std::string in_words(const Error& error);
 
 /// The same of a remark.

@@ -5,7 +5,8 @@
 /// Options that mean the same in every command.
 namespace astro::commands {
 
-/// Adds --yes for a question that otherwise stands before what a command does; `answers` says which.
+/// Adds --yes, which answers a question that the command otherwise asks before it acts. `answers`: the help,
+/// which names the question.
 void add_yes(console::Command command, bool& yes, const char* answers);
 
 /// Adds --json.

@@ -126,7 +126,7 @@ void add_camera_options(console::Command command, simulation::MocapConfig& mocap
       .check(console::between(-1, 1, "m"));
 }
 
-/// The tracking software beside the robot, for clients of real ones.
+/// Simulated tracking software beside the robot, for clients of real tracking software.
 void add_tracker_options(console::Command command, simulation::NetworkTrackerConfig& tracker) {
   command
       .add_option_function(

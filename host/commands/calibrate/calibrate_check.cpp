@@ -31,7 +31,7 @@ using experiment::DeadReckoning;
 using experiment::MlChoice;
 
 struct CheckOptions {
-  fs::path folder;  // or files of others
+  fs::path folder;  // or files of other programs in `import`
   ImportOptions import;
   std::vector<fs::path> with;
   std::vector<std::string> without;
@@ -88,7 +88,7 @@ std::vector<std::string> row(const std::string& name, std::size_t runs, double f
   return {name, milli(final_m), milli(std::abs(heading_rad)), milli(path_m)};
 }
 
-/// Those that have one wheelbase need no words.
+/// Leaves out factors with e = 0, which have only one wheelbase.
 std::string wheelbases_of(const std::vector<DeadReckoning>& all) {
   std::string text;
   for (const auto& [by, errors] : all)

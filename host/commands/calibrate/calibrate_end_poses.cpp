@@ -46,8 +46,8 @@ std::vector<calibration::SquareEnd> ends_of(const std::vector<calibration::EndPo
   return ends;
 }
 
-/// A number that is another one with its decimal point moved, or its sign changed, is a mistake that is easily corrected.
-/// An end that nothing explains is borne.
+/// Throws for an end that a moved decimal point or a changed sign explains, because such a mistake is easily corrected. An
+/// odd end without such an explanation is accepted.
 void refuse_mistakes(const experiment::Squares& squares, const EndPosesOptions& options) {
   for (const calibration::OddRun& odd :
        calibration::odd_runs(ends_of(squares.cw), ends_of(squares.ccw), {squares.side_m, squares.loaded}))

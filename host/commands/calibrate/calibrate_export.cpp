@@ -39,7 +39,7 @@ std::optional<experiment::DiffDrive> sizes_if_known(const experiment::ParameterF
   return experiment::diff_drive(file, nominal);
 }
 
-/// What all files of a format contain that were exported before.
+/// Text that every earlier export in this format contains.
 std::string_view mark_of(const std::string& format) {
   return format == "ros2" ? "# Found by Astrolabe" : format == "json" ? "\"c_R\":" : "[parameters]";
 }

@@ -5,7 +5,8 @@
 
 namespace astro::commands {
 
-/// Asks for something that only a robot which somebody drives can do. Throws Error(`otherwise`) if nobody does.
+/// Sends a request that the robot accepts only while somebody drives it. Throws Error(`otherwise`) if nobody
+/// does.
 template <protocol::Request M>
 void ask_driven(robot::Client& client, const M& request, const char* otherwise) {
   try {

@@ -74,7 +74,7 @@ class OdometryWatch {
 class Stopwatch {
  public:
   void moved_to(const recording::OdometrySample& sample) {
-    // Of a spin at this rate, the wheels of the reference robot are half as fast as kStill_mps.
+    // In a spin at kStill_radps, the wheels of the reference robot are half as fast as kStill_mps.
     constexpr double kStill_mps = 1e-6 * kWheelStopped_umps, kStill_radps = 0.01;
     if (std::abs(sample.v_mps) < kStill_mps && std::abs(sample.omega_radps) < kStill_radps) return;
     if (first_us_ == 0) first_us_ = sample.time_us;

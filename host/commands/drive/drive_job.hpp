@@ -10,7 +10,7 @@
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
 
-/// One drive of a command, from connecting to the line that says where the odometry ended, and what steers meanwhile.
+/// One drive of a command, from connecting to the line that shows where the odometry ended, and steering during the drive.
 namespace astro::commands {
 
 struct DriveOptions {

@@ -34,7 +34,7 @@ std::vector<fs::path> paths_in(const std::string& answer) {
   return paths;
 }
 
-/// The robot drives the same in each phase, so that the film of another one would fit.
+/// Refuses the film of another phase: it would fit, because the robot drives the same in each phase.
 void refuse_other(const film::NamedFilm& film, const FilmRequest& request) {
   if (std::find(request.others.begin(), request.others.end(), film.track.fingerprint) != request.others.end())
     throw Error("'" + film.name +
@@ -99,7 +99,7 @@ void take_films(const std::string& phase, experiment::RunSet& set, const FilmReq
     } catch (const Interrupted&) {
       throw;
     } catch (const Error&) {
-      answer.clear();  // nobody is there
+      answer.clear();  // nobody can be asked
     }
     const std::vector<fs::path> paths = paths_in(answer);
     if (paths.empty())

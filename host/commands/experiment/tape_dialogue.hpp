@@ -9,7 +9,7 @@
 #include "host/experiment/files/plan.hpp"
 #include "host/truth/source/reading.hpp"
 
-/// What a person with a tape measure, who enters the ground truth, is told and asked, beside the questions for the numbers themselves.
+/// The dialogue with a person who enters ground truth from a tape measure, except the questions for the numbers themselves.
 namespace astro::commands {
 
 /// Before the first run: how many runs and readings are left in `folder`, how long they take, and a drawing of where to put the
@@ -19,11 +19,13 @@ std::string tape_briefing(const experiment::Plan& plan, const std::filesystem::p
 /// The unit of numbers without one; an empty answer is mm.
 truth::LengthUnit ask_length_unit(const AskLine& ask);
 
-/// Waits for Enter alone: the robot stands on its mark for `next`. Where `last` is given, it can be corrected first.
+/// Waits for Enter alone, by which the person confirms that the robot stands on its mark for `next`. If `last` is given,
+/// that run can be corrected first.
 experiment::Redo ask_ready(const AskLine& ask, const experiment::RunSpec& next,
                            const std::optional<experiment::RunSpec>& last);
 
-/// After a run that was broken off: waits for Enter alone, the robot stands on its mark again.
+/// After a run that was broken off: waits for Enter alone, by which the person confirms that the robot stands on its mark
+/// again.
 void ask_put_back(const AskLine& ask, const experiment::RunSpec& run);
 
 /// What to do about a run that does not fit the others.

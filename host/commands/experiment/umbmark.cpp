@@ -84,7 +84,7 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     return pauses ? ask_ready(ask, spec, last) : experiment::Redo::no;
   };
   hooks.put_back = [ask](const experiment::RunSpec& run) {
-    if (!console::stdin_is_terminal()) return false;  // answers from a pipe do not look at the robot
+    if (!console::stdin_is_terminal()) return false;  // piped answers cannot confirm where the robot is
     ask_put_back(ask, run);
     return true;
   };
@@ -125,7 +125,7 @@ void brief(UmbmarkOptions& options) {
   options.truth.units.length = length_unit(options);
 }
 
-/// Laps in front of a wall in place of squares, with the options that mean the same.
+/// Drives laps in front of a wall in place of squares, with the options that both have.
 void run_with_wall(UmbmarkOptions& options) {
   wall::WallPlan& plan = options.wall.plan;
   if (options.line.count() > 0) plan.line_m = options.plan.line_m;
@@ -136,7 +136,7 @@ void run_with_wall(UmbmarkOptions& options) {
            {options.out, truth::length_unit_named(options.unit), options.yes, options.force, options.json});
 }
 
-/// Prints what came out. An experiment that ends before its last phase does so because the drives speak against loading.
+/// Prints what came out. If the experiment ended before its last phase, its drives advise against loading the factors.
 void conclude(const experiment::Results& results, const std::filesystem::path& report, bool as_json) {
   const experiment::Calibration* const not_loaded = results.not_loaded();
   if (as_json) {

@@ -8,7 +8,7 @@
 namespace astro::commands {
 namespace {
 
-/// An option that changes nothing with another source is a mistake.
+/// Throws if the option is given with another source, with which it has no effect.
 void require_truth(const UmbmarkOptions& options, const console::Option& option, const std::string& name,
                    const std::string& source) {
   if (option.count() > 0 && options.truth.source != source)

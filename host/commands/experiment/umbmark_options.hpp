@@ -36,7 +36,7 @@ struct UmbmarkOptions {
 
 void add_umbmark_options(console::Command command, UmbmarkOptions& options);
 
-/// An option that changes nothing with the chosen ground truth is a mistake: throws console::WrongUsage.
+/// Throws console::WrongUsage if an option is given that has no effect with the chosen ground truth.
 void refuse_options_of_other_truth(const UmbmarkOptions& options);
 
 }  // namespace astro::commands

@@ -27,7 +27,7 @@ constexpr const char* kDrawing = R"(
                +-----+      enough
 )";
 
-/// With what the robot may go further as its wheels are larger than it believes.
+/// Includes how much further the robot may go if its wheels are larger than its parameters say.
 double depth_m(const wall::WallPlan& plan) {
   const wall::BodySize& body = plan.body;
   const double turning_m = 2 * (body.turning_gap_m() + body.front_to_axle_m);
@@ -85,7 +85,7 @@ namespace {
 
 constexpr const char* kNoLength = "'{}' is not a length in a known unit; write it with a decimal point.\n{}";
 constexpr double kLongest_m =
-    1e5;  // 100 m in millimetres, taken for metres: the doubt about it names the unit
+    1e5;  // 100 m in millimetres, read as metres: the question about the doubtful gap names the unit
 
 bool is_length(const std::optional<double>& gap_m) { return gap_m && *gap_m > 0 && *gap_m < kLongest_m; }
 

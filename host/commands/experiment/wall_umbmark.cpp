@@ -49,7 +49,7 @@ WallHooks hooks_for(truth::LengthUnit unit, console::Progress& progress) {
   return hooks;
 }
 
-/// False if the factors are not loaded because the ways speak against it, which is an answer and no error.
+/// False if the factors are not loaded because the drives advise against it, which is a result and no error.
 bool load(robot::Client& client, const experiment::ParameterFile& file, const std::filesystem::path& path,
           const WallSettings& settings) {
   const bool nobody_to_ask = settings.yes || !console::stdin_is_terminal();

@@ -19,7 +19,7 @@ struct WallOptions {
   std::vector<std::pair<std::string, console::Option>> own;  // which no other truth has
 };
 
-/// Those of a wall alone.
+/// Adds the options that only a wall has.
 void add_wall_options(console::Command command, WallOptions& options);
 
 /// What umbmark has for every truth.
@@ -29,7 +29,8 @@ struct WallSettings {
   bool yes = false, force = false, json = false;
 };
 
-/// Drives, estimates, writes `out`/calib.toml, and loads it if it is agreed. Throws as run_wall_experiment and load_parameters do.
+/// Drives, estimates, writes `out`/calib.toml, and loads it if the person agrees. Throws as run_wall_experiment and
+/// load_parameters do.
 void run_wall(ConnectionOptions& connection, const wall::WallPlan& plan, const WallSettings& settings);
 
 }  // namespace astro::commands

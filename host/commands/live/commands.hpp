@@ -2,7 +2,7 @@
 
 #include "host/console/command_line.hpp"
 
-/// The subcommands that show a robot by ROS 2's messages: to nodes of ROS 2, and to viewers. Each is a file named after it.
+/// The subcommands that publish a robot as ROS 2 messages, to ROS 2 nodes and to viewers. Each is a file named after it.
 ///
 /// Output  what happens to the robot's link on stderr.
 /// Errors  as host/commands/robot/commands.hpp. Ctrl-C ends with 130; a robot that was armed by the node is at rest then.

@@ -19,7 +19,7 @@ namespace {
 
 bool is_loopback(const std::string& ip) { return ip.starts_with("127.") || ip == "::1"; }
 
-/// As a URL has it.
+/// The host part of a URL.
 std::string host_of(const std::string& ip) {
   if (ip == "127.0.0.1") return "localhost";
   if (ip == "0.0.0.0" || ip == "::") return "THIS-COMPUTER";

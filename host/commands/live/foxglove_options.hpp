@@ -21,14 +21,14 @@ struct FoxgloveOptions {
 /// Adds --foxglove, and --listen, --allow-origin and --allow-commands, which need it.
 void add_foxglove_options(console::Command command, FoxgloveOptions& options);
 
-/// A bare number as the robot's port is that of the viewers, as other servers of viewers have it: no port of a robot is one. Takes
-/// it away from `port`. Throws WrongUsage if it is none, or --listen is given, too.
+/// If `port` is a bare number, it is the viewers' port, as with other viewer servers, because no robot's port is a bare
+/// number. Moves it from `port` to `options`. Throws WrongUsage if it is no valid port, or if --listen is given, too.
 void take_viewers_port(std::string& port, FoxgloveOptions& options);
 
 /// "8765", "localhost:8765", "0.0.0.0:8765" or "[::1]:8765". Throws astro::Error that names the word otherwise.
 foxglove::Address foxglove_address_in(const std::string& word);
 
-/// Where a browser finds it, and what anybody should know who can be reached by others.
+/// Where a browser finds the server, and what to know if other computers can reach it.
 std::string foxglove_announcement(const FoxgloveOptions& options, std::uint16_t port);
 
 /// `name`: what viewers call the robot. Services that stop the robot are served to every viewer, under their `names`.

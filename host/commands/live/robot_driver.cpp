@@ -38,7 +38,7 @@ void take_calibration(const std::filesystem::path& path, live::DriverOptions& op
                                                  number_of(file, "b", 0), number_of(file, "e", 0)};
 }
 
-/// Who called a service can call another one.
+/// A node that called a service can call another one, so the advice names a service.
 std::string words_for_nodes(const Error& error) {
   if (error.kind() == Kind(robot::RobotProblem::faulted))
     return std::string(error.what()) + "; remove its cause, then call clear_faults";

@@ -10,7 +10,7 @@
 #include "host/formats/cdr/names.hpp"
 #include "host/live/driver/driver.hpp"
 
-/// What commands have in common that show a robot by ROS 2's messages, whatever carries them.
+/// Shared by the commands that publish a robot as ROS 2 messages, over any middleware.
 namespace astro::commands {
 
 struct RobotDriverOptions {
@@ -27,7 +27,7 @@ struct RobotDriverOptions {
 
 live::Names names_of(const RobotDriverOptions& options);
 
-/// What a launch file sets: parameters of the node take the place of options, others may be those of the robot. Throws
+/// Applies what a launch file sets: parameters of the node replace options, others may be the robot's. Throws
 /// console::WrongUsage for a value that is not possible.
 void take_parameters(const std::vector<ros2::msg::Parameter>& parameters, RobotDriverOptions& options);
 

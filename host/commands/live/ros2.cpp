@@ -32,7 +32,7 @@ bool others_are_of_humble(const Ros2Options& options) {
   return distribution == "foxy" || distribution == "galactic" || distribution == "humble";
 }
 
-/// What the others' navigation and controllers send unless somebody changes it (host/live/README.md has them).
+/// The default message type of the other nodes' navigation and controllers (host/live/README.md lists them).
 live::CommandType cmd_vel_type(const Ros2Options& options) {
   const auto& names = live::kCommandTypeNames;
   const auto chosen = std::ranges::find(names, options.cmd_vel_type);

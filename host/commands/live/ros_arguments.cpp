@@ -41,7 +41,7 @@ Rule rule_in(const std::string& flag, const std::string& word) {
   if (assign == std::string::npos || assign == 0 || assign + kAssign.size() == word.size())
     refuse(flag, fmt::format("'{}' is not FROM:=TO", word));
   Rule rule{"", word.substr(0, assign), word.substr(assign + kAssign.size())};
-  // A name may begin with its kind, which says nothing new here: no topic has the name of a service.
+  // A name may begin with its kind. It is not needed here, because no topic has the name of a service.
   for (const std::string_view scheme : {"rostopic://", "rosservice://"})
     if (rule.left.starts_with(scheme)) rule.left.erase(0, scheme.size());
   if (const std::size_t colon = rule.left.find(':'); colon != std::string::npos) {
@@ -100,7 +100,7 @@ std::vector<std::string> split(std::string_view text, char between) {
   return parts;
 }
 
-/// Whether the words of a name fit those of a pattern, from these on.
+/// Whether the words of a name from `at` on match those of a pattern from `of` on.
 bool fits(const std::vector<std::string>& name, std::size_t at, const std::vector<std::string>& pattern,
           std::size_t of) {
   if (of == pattern.size()) return at == name.size();
@@ -206,7 +206,7 @@ class Reader {
     } catch (const Error& error) {
       refuse("-p", fmt::format("'{}:={}': {}", rule.left, rule.right, error.what()));
     }
-    // Lists are parameters of no node here.
+    // Lists are ignored, because no node here has a list as a parameter.
     if (scalars.size() == 1 && scalars[0].path.empty()) take(rule.left, value_of(scalars[0]));
   }
 

@@ -29,8 +29,8 @@ using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kRest{1};  // before a source that has failed is asked again
 
-/// Ground truth as the topic truth of the node (geometry_msgs/PoseStamped, in the tracker's frame). Of a tracker that is lost and
-/// found again it says both once; a pose that the tracker does not see is one of NaNs.
+/// Publishes ground truth as the node's topic `truth` (geometry_msgs/PoseStamped, in the tracker's frame). If a tracker is
+/// lost and found again, it reports each once. A pose that the tracker does not see consists of NaNs.
 class TruthTopic {
  public:
   using Open = std::function<std::unique_ptr<truth::Source>()>;
@@ -44,7 +44,7 @@ class TruthTopic {
         publisher_(
             middleware.advertise({names.absolute("truth"), live::message_type<ros2::msg::PoseStamped>()})) {}
 
-  /// Publishes what has come; never waits. The driver knows what the robot's clock shows.
+  /// Publishes what has come; never waits. `driver` converts the robot's clock and this computer's to UTC.
   void step(live::Driver& driver) {
     if (steady_clock::now() < ask_at_) return;
     try {
@@ -89,7 +89,7 @@ void run(ServeOptions& options) {
   if (connection.port.empty() && options.truth.source == "sim") connect(connection);  // finds the only robot
   std::unique_ptr<truth::Source> source;
   if (options.truth.source != "none") source = open_truth(options.truth, connection.port);
-  TruthTopic::Open open_again;  // trackers are found again by themselves
+  TruthTopic::Open open_again;  // none for trackers, which are found again without it
   if (options.truth.source == "sim")
     open_again = [option = options.truth, port = connection.port] { return open_truth(option, port); };
   foxglove::FoxgloveServer server(foxglove_settings(options.viewers, "Astrolabe", names_of(options.driver)));

@@ -144,7 +144,7 @@ void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
   console::say(fmt::format("{} parameters are in {}", values.size(), options.file.string()));
 }
 
-/// What a file says is to be loaded, of either kind.
+/// The parameters to be loaded from a file: one of ours, or one of a ROS 2 controller.
 experiment::ParameterFile importable(const ParamsOptions& options) {
   if (!importing::is_controller_file(options.file)) return experiment::read_parameter_file(options.file);
   experiment::ParameterFile file;

@@ -20,7 +20,7 @@ robot::SharedPorts& ports_of_this_program() {
   return ports;
 }
 
-/// A robot that is seen at two of its ports is one, and either will do.
+/// A robot that answers at two of its ports counts as one, and either port will do.
 std::string only_robot(unsigned baud) {
   std::string robots, reasons, first;
   std::set<std::array<std::uint8_t, 16>> identities;

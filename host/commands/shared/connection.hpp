@@ -23,11 +23,11 @@ void add_connection(console::Command command, ConnectionOptions& options);
 /// What answers at the candidate ports of this computer.
 std::vector<robot::FoundPort> find_robots(unsigned baud);
 
-/// The last act of this program, which has closed its ports: other programs that use one go on using it.
+/// Must be the last call of this program, after it has closed its ports. Other programs that use one can go on using it.
 void leave_ports_to_others();
 
-/// Opens the port, shared with other programs. Without --port that of the only robot found, which may be another one each
-/// time; throws astro::Error as connect() does.
+/// Opens the port, shared with other programs. Without --port it takes that of the only robot found, which may be another
+/// robot at each call; throws astro::Error as connect() does.
 std::unique_ptr<robot::Transport> open_port(const ConnectionOptions& options);
 
 /// Connects to a robot and returns after its answer. Without --port it takes the only robot found; if there
@@ -35,11 +35,12 @@ std::unique_ptr<robot::Transport> open_port(const ConnectionOptions& options);
 /// port used.
 std::unique_ptr<robot::Client> connect(ConnectionOptions& options);
 
-/// The same for a command that drives: a stop of somebody else that comes from now on keeps it from its first drive, too. Not for one
-/// that stops the robot, whose first request must be the stop: a question waits behind those of other programs.
+/// The same for a command that drives: a stop by somebody else from now on also prevents its first drive. Not for a command
+/// that stops the robot: its first request must be the stop, because a request for the status waits behind those of other
+/// programs.
 std::unique_ptr<robot::Client> connect_to_drive(ConnectionOptions& options);
 
-/// Hooks that ask for Ctrl-C and print notices on stderr.
+/// Hooks that check for Ctrl-C and print notices on stderr.
 robot::DriveHooks drive_hooks();
 
 }  // namespace astro::commands

@@ -30,7 +30,7 @@ std::vector<film::NamedFilm> follow_films(const std::vector<std::filesystem::pat
 void give_truth(experiment::RunSet& set, const std::vector<film::NamedFilm>& films,
                 const FilmOptions& figures);
 
-/// Both, if films are named. Throws console::WrongUsage if figures of tags are given without a film.
+/// Does both if films are named. Throws console::WrongUsage if figures of tags are given without a film.
 void give_truth(experiment::RunSet& set, const FilmTruthOption& option);
 
 /// Throws console::WrongUsage if figures of tags are given without a film.

@@ -31,7 +31,7 @@ struct ImportOptions {
 /// --wheels and --truth, each as often as there are drives.
 void add_drive_files(console::Command command, ImportOptions& options);
 
-/// How to read files of these kinds: what is not said is recognised or asked for in an error.
+/// Options for reading files of these kinds. What they leave open is recognised, or an error asks for it.
 void add_table_choices(console::Command command, importing::WheelTable& table);
 void add_bag_choices(console::Command command, ImportOptions& options);
 void add_body_choice(console::Command command, ImportOptions& options);
@@ -41,8 +41,8 @@ void add_geometry_choices(console::Command command, ImportOptions& options);
 /// Films as the truth of recordings of this project; nothing if none is named. Throws as commands::give_truth does.
 void give_films(experiment::RunSet& set, const ImportOptions& options);
 
-/// --session-per-folder (folder_sessions.hpp): between which drives the tracked body or a clock was set up anew. Without it
-/// sessions are found from the data.
+/// Adds --session-per-folder (folder_sessions.hpp): the tracked body or a clock may have been set up anew between folders.
+/// Without it, sessions are found from the data.
 void add_session_flag(console::Command command, bool& session_per_folder);
 
 /// All of the above.

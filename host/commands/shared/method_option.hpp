@@ -13,11 +13,11 @@ struct MethodOption {
   std::string method = "auto", angles = "average", formula = "exact";
   console::Option angles_option, formula_option;
 
-  /// Throws console::WrongUsage for a variant of another method than the one that was chosen: it would change nothing.
+  /// Throws console::WrongUsage for a variant of another method than the chosen one, because it would have no effect.
   experiment::MethodChoice choice() const;
 };
 
-/// `methods`: those that there are; `what`: the help of --method.
+/// `methods`: the valid names; `what`: the help of --method.
 void add_method(console::Command command, MethodOption& option, const std::vector<std::string>& methods,
                 const std::string& what);
 

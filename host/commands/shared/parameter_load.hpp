@@ -16,9 +16,8 @@ struct LoadOptions {
 /// Adds --force to a command that uploads a calibration.
 void add_force(console::Command command, bool& force);
 
-/// Whether a calibration is loaded: asks at the terminal, unless `yes`. One that its drives speak against (worse, or not
-/// shown to be better) is loaded only if a person at a terminal says so, or with `force` beside `yes`; one that is worse
-/// only with `force`.
+/// Whether a calibration is to be loaded: asks at the terminal, unless `yes`. If its drives do not show that it is better, a
+/// person at a terminal must agree, or both `force` and `yes` must be set. If it is worse, `force` must be set in any case.
 bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options);
 
 struct LoadResult {

@@ -8,8 +8,8 @@ namespace astro::commands {
 /// Puts a question at the terminal, returns the answer.
 using AskLine = std::function<std::string(const std::string&)>;
 
-/// An answer without the blanks around it: asks until it is empty or one of those that `accepted` recognises, and says why it
-/// asks again. Where Enter alone lets a robot drive, a person who types something else does not agree.
+/// Asks until the answer, without the blanks around it, is empty or recognised by `accepted`, and says why it asks again. So
+/// nothing but Enter alone lets a robot drive: a person who types something else does not agree.
 std::string enter_or(const AskLine& ask, const std::string& prompt,
                      const std::function<bool(const std::string&)>& accepted);
 

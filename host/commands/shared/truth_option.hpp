@@ -12,7 +12,7 @@
 
 namespace astro::commands {
 
-/// --truth: where ground truth comes from. Besides these words the address of a tracker on the network
+/// --truth: where ground truth comes from. One of these words, or the address of a tracker on the network
 /// (host/truth/live/tracker_url.hpp).
 ///   sim     the virtual cameras beside the port of an 'astrolabe sim'
 ///   manual  a person with a tape measure is asked after each run
@@ -34,8 +34,8 @@ std::string in_words(const truth::Question& question);
 /// Asks at the terminal.
 std::string ask_person(const truth::Question& question);
 
-/// Says what a source on the network turned out to be. `asking`: how a person is asked, if one is. Throws astro::Error if
-/// the source cannot be opened.
+/// Opens the source, and says what a source on the network turned out to be. `asking`: how to ask a person, if the source
+/// does. Throws astro::Error if the source cannot be opened.
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking = ask_person);
 

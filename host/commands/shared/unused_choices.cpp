@@ -28,7 +28,8 @@ bool any_text(const Files& files) {
                              [](const fs::path& path) { return is_missing(path) || !bag::is_bag(path); });
 }
 
-/// A recording of ours has wheels of its own, unless a topic of joints is named.
+/// --joints does not apply to a recording of ours, which contains the wheels, unless a topic of joints is
+/// named.
 bool any_with_joints(const ImportOptions& options) {
   return std::ranges::any_of(options.wheels, [&](const fs::path& path) {
     return is_missing(path) ||

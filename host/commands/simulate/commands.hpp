@@ -2,8 +2,8 @@
 
 #include "host/console/command_line.hpp"
 
-/// The subcommands around robots that do not exist. Each is a file named after it and adds itself to
-/// the program: options, examples in its footer, and a callback that does the work.
+/// The subcommands around simulated robots. Each is a file named after it and adds itself to the program:
+/// options, examples in its footer, and a callback that does the work.
 ///
 /// Output  data on stdout; everything else (progress, questions, warnings) on stderr.
 /// Errors  a callback throws astro::Error with one sentence; main prints it and exits with 1. Wrong usage exits

@@ -118,7 +118,7 @@ std::vector<std::string> percent_row(const std::string& name, const Precision& r
   return {name, percent(relative.E_d), percent(relative.scale), percent(relative.b)};
 }
 
-/// What is to be said of e, if it is to be found.
+/// The forecast for e, if e is to be estimated.
 std::string e_text(const Forecast& forecast) {
   if (!forecast.programme.with_e) return {};
   std::string text = fmt::format("standard error of e: {:.4f}\n", forecast.se.e);

@@ -19,7 +19,7 @@ class RosPosePublisher : public simulation::FrameSink {
   void send(const simulation::TrackedFrame& frame) override;
 
  private:
-  std::unique_ptr<dds::Participant> participant_;  // before its writers
+  std::unique_ptr<dds::Participant> participant_;  // before its writers, so that it outlives them
   std::unique_ptr<dds::Writer> nodes_, poses_;
 };
 

@@ -174,10 +174,10 @@ simulation::study::ShardFile load(const fs::path& path) {
   constexpr std::uint64_t kBeginning = 4096;
   FileSource file(path);
   const auto beginning = as_text(file.read(0, static_cast<std::size_t>(std::min(file.size(), kBeginning))));
-  // What is no text shows that it is no shard.
+  // A zero byte shows that the file is no text, so its beginning suffices for the error.
   if (beginning.find('\0') != beginning.npos)
     return simulation::study::read_shard_file(std::string(beginning), path.string());
-  // JSON may be one line.
+  // Reads the whole file, because JSON may be one line.
   return simulation::study::read_shard_file(std::string(as_text(load_text(path, kMaxFileBytes))),
                                             path.string());
 }

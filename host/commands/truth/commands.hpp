@@ -2,7 +2,7 @@
 
 #include "host/console/command_line.hpp"
 
-/// The subcommands around ground truth and files of others. Each is a file named after it and adds itself to the
+/// The subcommands around ground truth and files of other programs. Each is a file named after it and adds itself to the
 /// program, or to `truth`: options, examples in its footer, and a callback that does the work.
 ///
 /// Output  data on stdout; everything else (progress, questions, warnings) on stderr.

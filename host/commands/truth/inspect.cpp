@@ -34,7 +34,7 @@ std::string said(const std::vector<Remark>& remarks) {
   return text;
 }
 
-/// The positions decide where both show it.
+/// If both positions and rotations show the upward direction, the positions decide.
 const std::optional<truth::Direction3>& up_of(const truth::BodyInspection& body) {
   return body.up.by_positions ? body.up.by_positions : body.up.by_rotations;
 }

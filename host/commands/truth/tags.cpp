@@ -114,7 +114,7 @@ std::vector<int> numbers_in(const std::vector<std::string>& words) {
   return numbers;
 }
 
-/// A tag that lies in two places cannot be told apart from itself.
+/// Refuses a number that is given twice, because two tags with one number cannot be told apart.
 void require_different(int robot, const std::vector<int>& floor) {
   std::set<int> seen{robot};
   for (const int id : floor)

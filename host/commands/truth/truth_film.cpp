@@ -42,7 +42,7 @@ void save(const fs::path& path, ByteView bytes) {
   console::say("written to " + path.string());
 }
 
-/// Before minutes of work, not after them.
+/// To be called before minutes of work, not after them.
 void require_different(const std::vector<fs::path>& outputs) {
   std::set<fs::path> seen;
   for (const fs::path& path : outputs)
@@ -52,7 +52,7 @@ void require_different(const std::vector<fs::path>& outputs) {
 
 constexpr double kGap_s = 0.5, kNothing = std::numeric_limits<double>::quiet_NaN();
 
-/// Broken where the tag was hidden.
+/// The line is broken where the tag was hidden.
 template <class X, class Y>
 report::PlotLine pose_line(const std::vector<film::FilmPose>& poses, const X& x, const Y& y) {
   report::PlotLine line;
@@ -102,7 +102,7 @@ report::Plot camera_plot(const film::FilmTrack& track) {
   return plot;
 }
 
-/// The report on a film: what `film_text` says, the preview, and plots of the path, of what remains of the corners and of the
+/// The report on a film: what `film_text` says, the preview, and plots of the path, of the corners' residuals and of the
 /// camera's motion.
 report::FilmReportInput film_page(const fs::path& film, const film::FilmTrack& track,
                                   std::vector<std::uint8_t> preview_png) {
@@ -155,7 +155,7 @@ void run(const TruthFilmOptions& options) {
     print_json(to_json(track));
   else
     write(film_text(track));
-  // All the same it is printed, so that a person sees where that was.
+  // The result is printed before this error, so that a person sees where the robot left the picture.
   if (const std::optional<Remark> gone = film::departure(options.film, track)) throw Error(*gone);
 }
 

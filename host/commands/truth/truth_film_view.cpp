@@ -97,7 +97,7 @@ std::string figure_name(const FilmTrack& track, const film::FigureCheck& one) {
   }
 }
 
-/// What a person measured, beside what the film and the others say without it.
+/// Each length that a person measured, beside what the film and the other lengths give without it.
 Rows figure_rows(const FilmTrack& track) {
   Rows rows;
   for (const film::FigureCheck& one : track.checked)

@@ -8,7 +8,7 @@
 
 namespace astro::commands {
 
-/// What a film shows, line by line: a name and what is said of it.
+/// The results from a film, one row each: a name and its value.
 std::vector<std::vector<std::string>> film_table(const film::FilmTrack& track);
 
 /// The same for people and as JSON.

@@ -30,7 +30,7 @@ struct WatchOptions {
   bool json = false;
 };
 
-/// The link without a source around it: a tracker that sends nothing is worth looking at, too.
+/// Uses the link without a source around it, so that a tracker that sends nothing can be watched, too.
 class Watch {
  public:
   explicit Watch(const truth::TrackerUrl& url) : link_(truth::open_link(url)), watch_(url.up) {}

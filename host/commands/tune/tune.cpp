@@ -101,7 +101,7 @@ void agree(const TuneOptions& options) {
   if (!console::confirm(question)) throw Error("nothing was measured");
 }
 
-// Before anything turns: a measurement that cannot be written down is lost.
+// Checked before anything turns, because a measurement that cannot be saved is lost.
 void check_out(const std::filesystem::path& out) {
   const auto folder = std::filesystem::absolute(out).parent_path();
   if (out.empty() || !std::filesystem::is_directory(folder) || std::filesystem::is_directory(out))
@@ -161,7 +161,7 @@ void run(TuneOptions& options) {
   const motor::TuningHooks hooks = hooks_with(bar);
   options.task.bandwidth_radps = radps_in(options.bandwidth);
   motor::TuningResult result = tune_motors(*client, options.task, hooks);
-  write_report(options, result, *client);  // what was measured is kept, whatever comes
+  write_report(options, result, *client);  // saved before the upload, which may fail
   if (!options.json) print(in_words(result));
   if (wants_upload(options, result)) {
     load_and_measure_again(*client, result, hooks);

@@ -14,10 +14,10 @@ enum class AnalysisProblem {
   no_odometry,           // value: the run's name
   times_run_backwards,   // values: the run's name, and the stream
   file_lacks_parameter,  // values: the run's name, and the parameter
-  run_lacks_parameter,   // the same of a run whose file is not known; values: its title, and the parameter
+  run_lacks_parameter,   // the same if the run's file is not known; values: its title, and the parameter
   run_without_truth,     // value: the run's name
   no_phase_complete,     // value: the experiment's folder
-  no_calibration,  // values: the factor that is missing, and the file where it is known; none of a folder
+  no_calibration,  // values: the factor that is missing, and the file if it is known; no values for a folder
   factors_of_other_wheel,  // value: the file
   no_wheel_separation,
   no_wheel_radius

@@ -58,7 +58,7 @@ std::vector<calibration::Trajectory> all_trajectories(Phases phases) {
   return all;
 }
 
-/// Start times are in whole seconds. Of equal ones, the later run in order counts.
+/// Start times are in whole seconds. If several are equal, the last of these runs counts.
 calibration::WheelFactors last_loaded(Phases phases) {
   const recording::RunInfo* last = &phases.front()->runs().front().info;
   for (const auto& phase : phases)
@@ -84,7 +84,7 @@ double truth_scale_sigma(Phases phases) {
   return most;
 }
 
-/// All three in one ratio, so that their scale is that of `scaled`.
+/// Multiplies all three factors by one ratio, so that their scale becomes that of `scaled`.
 calibration::WheelFactors with_scale_of(const calibration::WheelFactors& scaled,
                                         calibration::WheelFactors factors) {
   const double keep = (scaled.c_r + scaled.c_l) / (factors.c_r + factors.c_l);
@@ -94,7 +94,7 @@ calibration::WheelFactors with_scale_of(const calibration::WheelFactors& scaled,
   return factors;
 }
 
-/// What multiplies all lengths of the truth multiplies all three factors alike.
+/// Adds the scale error of the truth to the estimate: it multiplies all three factors alike.
 void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
                      calibration::MlEstimate& estimate) {
   calibration::WheelFactors& factors = estimate.factors;
@@ -102,7 +102,7 @@ void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
   if (std::isfinite(sigma)) {
     estimate.covariance += sigma * sigma * lengths * lengths.transpose();
   } else {
-    // Nothing is known of the scale: it stays, and with it goes what the drives seem to know of it.
+    // The scale is unknown: the loaded one stays, and the covariance loses what the drives seem to tell about the scale.
     const double keep = (loaded.c_r + loaded.c_l) / (factors.c_r + factors.c_l);
     Eigen::Matrix4d jacobian = Eigen::Matrix4d::Identity();
     jacobian -= lengths * Eigen::RowVector4d(1, 1, 0, 0) / (factors.c_r + factors.c_l);
@@ -127,7 +127,8 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   ml.session_names = session_names(runs, ml.estimate);
   result.truth_scale_sigma = truth_scale_sigma(phases);
-  // Where nobody measured a length the loaded scale stays, and is not what the loaded factors are judged by.
+  // If nobody measured a length, the loaded scale stays. The loaded factors are then compared at the estimated scale, so
+  // that the scale does not count in the judgement.
   const calibration::WheelFactors compared = std::isinf(result.truth_scale_sigma)
                                                  ? with_scale_of(ml.estimate.factors, result.loaded)
                                                  : result.loaded;
@@ -168,7 +169,8 @@ Calibration by_end_poses(Phases phases, const MethodChoice& method) {
   return result;
 }
 
-/// Takes a scale that lines gave: it moves both wheels and the wheelbase alike, because a closed square stays closed.
+/// Applies the scale from lines. It multiplies both wheels and the wheelbase by one ratio, because a closed square stays
+/// closed.
 void apply(const calibration::LineScale& scale, Calibration& result) {
   const double change = scale.scale / result.scale();
   const double part = scale.se / scale.scale;
@@ -245,7 +247,7 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
 }
 
 Calibration calibrate(const Recordings& recordings, const MethodChoice& method, const MlChoice& ml) {
-  // The caller keeps the recordings.
+  // The pointer does not own the recordings; the caller keeps them.
   const std::shared_ptr<const Recordings> phase(std::shared_ptr<void>(), &recordings);
   return calibrate_phases({&phase, 1}, method, ml);
 }

@@ -12,10 +12,10 @@
 /// keep what is to be loaded under [parameters], by table name and in SI units.
 namespace astro::experiment {
 
-/// What is wrong with a file of parameters. Values: the file and, of value_of_other_type, the parameter.
+/// What is wrong with a file of parameters. Values: the file and, for value_of_other_type, the parameter.
 enum class ParameterFileProblem { no_parameters, value_of_other_type, bad_wheel, bad_covariance, bad_slip };
 
-/// What the first line of a file with factors says of it.
+/// The text of the first line of a file with factors.
 inline constexpr const char* kFoundFactors = "Found by Astrolabe, to be uploaded to the robot that drove.";
 
 using ParameterValues = std::map<std::string, robot::Value>;
@@ -32,13 +32,13 @@ struct ParameterFile {
   ParameterValues parameters;
   /// The factors loaded in the robot when the calibration was driven; empty in a file without [carried].
   std::map<std::string, double> loaded;
-  /// Of c_R, c_L, b and e; NaN where the method or the data could not tell, empty in a file that no calibration
-  /// wrote.
+  /// Of c_R, c_L, b and e. NaN if the method or the data do not determine it; empty in a file that no calibration wrote.
   std::map<std::string, double> standard_errors;
-  /// The parameters hold whatever is loaded in the robot by now (Calibration::absolute).
+  /// The parameters are right whatever is loaded in the robot by now (Calibration::absolute).
   bool absolute = false;
   std::optional<NominalWheel> wheel;  // [nominal]
-  /// Of c_R, c_L, b and e; that of e is zero in a file of a version that did not know it; none in a file without [covariance].
+  /// Of c_R, c_L, b and e; that of e is zero in a file of an older version, which had no e; none in a file without
+  /// [covariance].
   std::optional<calibration::FactorCovariance> covariance;
   /// Variance of a wheel's slip for each metre that it turns, m^2/m; none in a file without [slip].
   std::optional<double> slip_K_m;
@@ -48,7 +48,8 @@ struct ParameterFile {
   std::string verdict_sentence;                                  // "" in a file without one
 };
 
-/// Writes what read_parameter_file reads: for calibrations that are no Calibration, because they were not found from recordings.
+/// Writes a file that read_parameter_file can read. For results that are no Calibration, because they were not found from
+/// recordings.
 void write_parameter_file(const std::filesystem::path& path, const ParameterFile& file);
 
 /// Throws astro::Error naming the file, and the line where TOML knows it: no such file, cut off, not TOML, no

@@ -10,8 +10,8 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/run_set.hpp"
 
-/// How well factors dead-reckon recorded drives of any kind: tests a calibration on drives that it has not seen,
-/// without driving again.
+/// Dead-reckons recorded drives of any kind with given factors. This tests a calibration on hold-out drives, without driving
+/// again.
 namespace astro::experiment {
 
 struct NamedFactors {
@@ -20,14 +20,13 @@ struct NamedFactors {
   RobotIdentity robot{};  // for which they were found; empty if the file does not name it
 };
 
-/// Those of calib.toml. `wheel`: the nominal wheel of the drives, to which c_R and c_L refer.
-/// Throws astro::Error naming the file if it lacks one of the three or is for another nominal wheel, and what
-/// read_parameter_file throws.
+/// The factors of calib.toml. `wheel`: the nominal wheel of the drives, to which c_R and c_L refer. Throws astro::Error
+/// naming the file if it lacks c_R, c_L or b or is for another nominal wheel, and what read_parameter_file throws.
 NamedFactors factors_of_file(const std::filesystem::path& file, const NominalWheel& wheel);
 
 struct DeadReckoning {
   NamedFactors by;
-  calibration::PathErrors errors;  // runs in the order and by the names of the set, but for those left out
+  calibration::PathErrors errors;  // in the order and by the names of the set, without the runs left out
 };
 
 /// Throws astro::Error: see trajectories_of and calibration::path_errors.

@@ -155,7 +155,7 @@ std::string ros2_yaml(const ParameterFile& file, const DiffDrive& parameters, co
   std::string text = "# Found by Astrolabe";
   const bool is_word = file.method.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string::npos;
   if (!file.method.empty() && is_word)
-    text += ", method " + file.method;  // in a comment anything else may end it
+    text += ", method " + file.method;  // anything else might end the comment
   text +=
       ".\n# wheel_radius and wheel_separation are nominal: the multipliers\n# belong to these very values.\n";
   if (const auto note = single_wheelbase(file, parameters)) text += comment(*note);

@@ -11,9 +11,8 @@
 /// Exports a calibration for other programs.
 namespace astro::experiment {
 
-/// What another program cannot say of a robot. Values of second_wheelbase: e, by how many percent gentle arcs
-/// are turned wrong, whether too "far" or too "little", and the wheel_separation_multiplier that is right for
-/// them.
+/// What the parameters of another program cannot express. Values of second_wheelbase: e, by how many percent gentle arcs are
+/// turned wrong, whether too "far" or too "little", and the wheel_separation_multiplier that is right for them.
 enum class ExportProblem { second_wheelbase };
 
 /// The parameters of ROS 2's diff_drive_controller that a calibration determines. That controller moves a wheel
@@ -41,12 +40,12 @@ void require_loadable(const ParameterFile& file);
 /// nor `nominal` gives a size.
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal);
 
-/// What these parameters cannot say of a robot with a curvature effect: diff_drive_controller knows one wheelbase. They have
-/// that of spins (b), to which c_R and c_L belong in a calibration, and gentle arcs are wrong by e.
-/// Nothing for e = 0.
+/// States what these parameters cannot express if e is not 0, because diff_drive_controller has only one wheelbase. They
+/// contain the wheelbase of spins (b), which goes with c_R and c_L in a calibration, so gentle arcs are wrong by e. Nothing
+/// for e = 0.
 std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDrive& parameters);
 
-/// Whether ROS 2 takes it for a node in a file of parameters: "controller", "/left_robot/controller".
+/// Whether ROS 2 accepts `name` as a node in a file of parameters: "controller", "/left_robot/controller".
 ///
 /// Source  rmw, rmw/validate_node_name.h and validate_namespace.h.
 bool is_ros2_node(std::string_view name);

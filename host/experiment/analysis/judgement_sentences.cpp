@@ -34,8 +34,8 @@ std::string comparison(const CrossValidation& judgement) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// The verdict weighs each moment of the drives, the errors add up from their starts. They may contradict each other where slip is
-/// larger than what the factors change, and where something is wrong with a drive.
+/// The verdict weighs each moment of the drives, but end errors add up from the start of a drive. The two may contradict
+/// each other if slip is larger than the effect of the factors, or if something is wrong with a drive.
 std::string doubt_about(const CrossValidation& judgement) {
   const HeldOutErrors before = judgement.in_use(), after = judgement.found();
   if (!(after.final_m > before.final_m)) return "";

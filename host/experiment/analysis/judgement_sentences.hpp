@@ -5,19 +5,19 @@
 
 #include "host/calibration/judgement/cross_validation.hpp"
 
-/// Whether to use new factors, in words that the terminal, the report and files share.
+/// Advice on whether to use new factors, in words that the terminal, the report and files share.
 namespace astro::experiment {
 
-/// The advice and what it rests on: "Better on 6 of 6 drives that it had not seen: the end error is 21 mm instead of 83 mm
+/// The advice and the reason for it: "Better on 6 of 6 drives that it had not seen: the end error is 21 mm instead of 83 mm
 /// ..., so use it.", or "Not better than what the robot carries: ... Keep what it carries."
 std::string judgement_sentence(const calibration::CrossValidation& judgement);
 
 /// "better", "worse", "undecided", "unknown": for files and programs.
 std::string_view name_of(calibration::Verdict verdict);
-/// Nothing else is unknown: a file of an older version has no verdict.
+/// Any other name gives Verdict::unknown: a file of an older version has no verdict.
 calibration::Verdict verdict_named(std::string_view name);
 
-/// Whether the drives speak against loading the factors: they are worse, or not shown to be better.
+/// Whether the drives advise against loading the factors, because they are worse or not shown to be better.
 bool advises_against(calibration::Verdict verdict);
 
 }  // namespace astro::experiment

@@ -21,8 +21,8 @@ class Recordings {
   Recordings() = default;
   Recordings(RunSet set) : set_(std::move(set)) {}  // NOLINT(google-explicit-constructor): the same runs
 
-  /// Adds runs behind the others; either all name their sessions or none does. What was converted of the others stays,
-  /// but may move in memory.
+  /// Appends runs; either all runs name their sessions or none does. Trajectories of the earlier runs are not converted
+  /// again, but may move in memory.
   void add(RunSet more);
 
   const RunSet& set() const { return set_; }

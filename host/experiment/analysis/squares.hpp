@@ -25,15 +25,15 @@ struct Squares {
   std::vector<std::string> left_out;
 };
 
-/// The squares among `runs`. A square whose end a person entered (has_moving_truth) and that does not fit the others is
-/// left out (calibration::odd_runs) if three of its direction remain: a tracker does not mistype, and what a robot does is
-/// not left out because it is rare.
+/// The squares among `runs`. A square is left out if a person entered its end (not has_moving_truth), it does not fit the
+/// others (calibration::odd_runs), and at least three of its direction remain. A square with truth from a tracker is never
+/// left out, because it contains no typing error: then the robot did behave like that.
 ///
 /// Throws astro::Error if there are no squares, or if they differ in side or in the parameters that were loaded in the
 /// robot: such runs must not be averaged.
 Squares squares_of(std::span<const recording::Run> runs);
 
-/// The measured end of a line beside what odometry says; nothing if the run is no line forwards, or if its end is not known.
+/// The end of a line as measured and by odometry; nothing if the run is no line forwards, or if its end is not known.
 std::optional<calibration::LineEnd> line_of(const recording::Run& run);
 
 /// The end of a run; NaN where it cannot be computed: then the calibration reports why.

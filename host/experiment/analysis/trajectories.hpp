@@ -10,7 +10,7 @@
 /// From recordings to the trajectories that maximum likelihood takes.
 namespace astro::experiment {
 
-/// The counts of a turn where a recording has no counts but angles or metres: fine enough that rounding them is nothing.
+/// The counts of a turn if a recording has angles or metres instead of counts: so many that rounding is negligible.
 inline constexpr double kAngleCounts = 0x1p24;
 
 /// The wheels as the robot's parameters describe them, without c_R and c_L.
@@ -19,19 +19,19 @@ struct NominalWheel {
   double counts_per_turn = 0;  // of the wheel: encoder counts times gear ratio
   bool operator==(const NominalWheel&) const = default;
 
-  /// The recording has no counts: what made the angles knew how many are a turn.
+  /// The recording has no counts, because its source has already converted them to angles.
   bool turns_as_angle() const { return counts_per_turn == kAngleCounts; }
 
   /// Travel of a wheel with c = 1.
   double metres_per_count() const;
-  /// Whether the same turning is the same travel for both, so that c_R and c_L of one are right for the other: one count,
-  /// or one angle where one of them has no counts.
+  /// Whether both give the same travel for the same rotation, so that c_R and c_L of one are right for the other. Compares
+  /// the travel per count or, if one of them has no counts, the diameters.
   bool measures_like(const NominalWheel& other) const;
   /// "a wheel of 0.084 m with 2796.8 counts a turn".
   std::string described() const;
 };
 
-/// Throws astro::Error, calling the run `name`, if the recording does not name it.
+/// Throws astro::Error, in which the run is called `name`, if the recording does not name its wheel.
 NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& name);
 
 /// Whether truth was measured with its times while the robot moved: by cameras, in contrast to a tape measure

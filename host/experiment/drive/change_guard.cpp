@@ -48,7 +48,7 @@ std::optional<Remark> incomplete(const ParameterFile& file) {
                 {missing}};
 }
 
-/// A calibration without e says what b is where all arcs turn about it.
+/// In a calibration without e all arcs turn about b, so its b does not go with an e that the robot holds.
 std::optional<Remark> foreign_e(const robot::RemoteParameters& robot, const ParameterFile& file) {
   if (file.method.empty() || file.parameters.contains("e")) return std::nullopt;
   const double e = loaded_factors(robot).e;
@@ -113,7 +113,7 @@ std::optional<Remark> wrong_loaded_factors(const robot::RemoteParameters& robot,
   then.try_emplace("e", 0);  // older versions did not know it
   const calibration::WheelFactors held = loaded_factors(robot);
   for (const auto& [name, loaded] : then) {
-    if (name == "kappa0" && same_number(held.e, 0)) continue;  // of no effect
+    if (name == "kappa0" && same_number(held.e, 0)) continue;  // no effect if e is 0
     const double now = name == "e" ? held.e : name == "kappa0" ? held.kappa0 : robot.number(name);
     if (same_number(now, loaded)) continue;
     const std::string then_text = fmt::format("{:.9g}", loaded), now_text = fmt::format("{:.9g}", now);

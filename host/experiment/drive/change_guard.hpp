@@ -28,26 +28,25 @@ using robot::Change;
 /// The factors in force. A firmware that knows no e has e = 0.
 calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot);
 
-/// The values as the firmware with these rows takes them: one that knows no e turns every arc about b, so e = 0 says nothing new to
-/// it and is left out with kappa0. Throws astro::Error for another e.
+/// The values that firmware with these rows understands. Firmware without e turns every arc about b; then e = 0 and kappa0
+/// are left out, because they change nothing there. Throws astro::Error if it has no e and e is not 0.
 ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values);
 
-/// A wheel factor that changes by more than a tenth is more likely a mistake (units, sides, another robot) than a
-/// calibration: states which one, if there is one. Checks c_R, c_L and b, and e, which may change by a
-/// tenth of b whatever it is now.
+/// States which wheel factor changes by more than a tenth, if one does, because that is more likely a mistake (units, sides,
+/// another robot) than a calibration. Checks the ratio of c_R, c_L and b, and the difference of e.
 std::optional<Remark> suspicion(const std::vector<Change>& changes);
 
-/// Why factors that are not absolute would be wrong on top of what is loaded in the robot now: they need the factors that
-/// were loaded when they were measured. Nothing if they are right.
+/// Why factors that are not absolute would be wrong with what is loaded in the robot now: they are composed with the factors
+/// that were loaded when they were measured. Nothing if they are right.
 std::optional<Remark> wrong_loaded_factors(const robot::RemoteParameters& robot, const ParameterFile& file);
 
 /// Why factors would be wrong with the robot's nominal wheel (diameter, gear, encoder): they refer to another one, as far
 /// as the file tells it. Nothing if they are right.
 std::optional<Remark> wrong_wheel(const robot::RemoteParameters& robot, const ParameterFile& file);
 
-/// Why these changes are uploaded only on request: the file is of another robot than `identity`, c_R, c_L and b are not
-/// complete or lack the e that the robot has, and what the three checks above find. What its own drives say of a calibration is not among them
-/// (judgement_sentences.hpp).
+/// Why these changes are uploaded only if forced: the file is of another robot than `identity`, it lacks c_R, c_L or b, it
+/// lacks the e that the robot has, or one of the three checks above finds something. The verdict of the calibration's own
+/// drives is not among them (judgement_sentences.hpp).
 std::vector<Remark> objections(const robot::RemoteParameters& robot, const RobotIdentity& identity,
                                const ParameterFile& file, const std::vector<Change>& changes);
 

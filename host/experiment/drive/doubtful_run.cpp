@@ -13,7 +13,7 @@ namespace {
 
 using calibration::LineEnd;
 
-/// The squares of one direction, and which of all runs they are.
+/// The squares of one direction, and their indices among all runs.
 struct Direction {
   std::vector<calibration::SquareEnd> ends;
   std::vector<std::size_t> at;
@@ -43,7 +43,8 @@ void add_squares(std::span<const RunSpec> specs, std::span<const recording::Run>
   }
 }
 
-/// The scale that the other lines give, if there are two at least, which cannot both be wrong in the same way.
+/// The scale that the other lines give, if at least two of them agree, because two cannot both be wrong in
+/// the same way. Otherwise the loaded scale.
 double scale_without(std::span<const LineEnd> lines, std::size_t index) {
   std::vector<LineEnd> others(lines.begin(), lines.end());
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(index));

@@ -15,9 +15,10 @@ struct DoubtfulRun {
   std::string why;  // names the run, what was measured, what was expected, and what would fit
 };
 
-/// Those among the runs of a phase, the most doubtful first: squares that do not fit the others
-/// (host/calibration/end_poses/odd_run.hpp), and lines that are 3 % longer or shorter than the others or, of the first two,
-/// than odometry says. Earlier runs are judged as well as the last one: which of them is wrong may show only later.
+/// The doubtful runs of a phase: first the squares that do not fit the others (host/calibration/end_poses/odd_run.hpp), the
+/// most doubtful first, then the lines that are more than 3 % longer or shorter than the others or, if fewer than two others
+/// agree, than odometry says. Earlier runs are checked as well as the last one, because later runs may show which of them is
+/// wrong.
 ///
 /// Precondition  specs[i] is what was planned for runs[i], and all are of one phase.
 std::vector<DoubtfulRun> doubtful_runs(std::span<const RunSpec> specs, std::span<const recording::Run> runs);

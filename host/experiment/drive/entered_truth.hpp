@@ -14,8 +14,8 @@
 
 namespace astro::experiment {
 
-/// Ground truth that comes after a run, from a person or a file: keeps the drive until it is there, compares it with that of
-/// the other runs, and corrects what a person says is wrong, also in a run that was recorded earlier.
+/// Ground truth that comes after a run, from a person or a file. Keeps the drive until its truth is there, compares that
+/// with the truth of the other runs, and lets a person correct it, also in a run that was recorded earlier.
 class EnteredTruth {
  public:
   /// Keeps references to all.
@@ -28,7 +28,8 @@ class EnteredTruth {
   bool keep(const RunSpec& spec, recording::Run& run);
 
   /// Asks about each run of a phase that does not fit the others, until all are right or one has to be driven again. The
-  /// recordings are safe meanwhile, and what was said to be right is in the journal. Nothing for truth from trackers.
+  /// recordings stay on the disk meanwhile, and the journal keeps what a person has confirmed. Does nothing for truth from
+  /// trackers.
   void look_back(const std::vector<RunSpec>& specs);
 
   /// Enters the truth of a recorded run again, or takes its recording away so that it is driven again.

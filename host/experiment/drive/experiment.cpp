@@ -47,8 +47,8 @@ RunSet without_truth(const fs::path& folder, const std::vector<RunSpec>& specs, 
   return set;
 }
 
-/// Completes the recordings of a phase whose truth comes after all of them (truth::LaterSource): `give` gets the runs that have
-/// none, and is asked again until none is left. What has truth is kept on the disk at once. False if nothing was missing.
+/// Completes the recordings of a phase whose truth comes after all of them (truth::LaterSource). Calls `give` with the runs
+/// that have no truth, until none is left, and saves each run that got its truth at once. False if nothing was missing.
 bool complete_later(const fs::path& folder, const std::vector<RunSpec>& specs, const std::string& source,
                     const std::vector<std::string>& others, const GiveTruth& give) {
   RunSet set = without_truth(folder, specs, source);
@@ -158,7 +158,8 @@ class Session {
     announced_ = true;
   }
 
-  /// Drives a run, or takes up its drive, and keeps it; false if something else was done first at the person's wish.
+  /// Drives a run, or resumes a drive that waits for its truth, and records it; or corrects the last run first, if the
+  /// person wants that. False if the person wants this run driven again, so that nothing was recorded.
   bool drive_one(const RunSpec& spec, int number, int total, std::optional<RunSpec>& last,
                  const robot::RemoteParameters& parameters) {
     recording::Run run;
@@ -167,7 +168,7 @@ class Session {
           {spec.title() + " is driven, but its ground truth is missing" + to_drive_again(driven)});
       run = recording::read_run(driven);
     } else {
-      // Whoever had the last run driven again has taken its recording away.
+      // The last run has no recording any more if a person wants it driven again.
       if (last && !fs::exists(file_of(folder_, *last))) last.reset();
       if (const Redo redo = hooks_.ready(spec, last); redo != Redo::no && last) {
         entered_.correct(*last, redo);
@@ -260,7 +261,7 @@ class Session {
                found_);  // what the report cannot use is an error now, before the next phase
   }
 
-  /// False if the experiment ends here, because the robot keeps what it carries.
+  /// False if the experiment ends here, because the robot keeps its factors.
   bool calibrate(std::size_t phase) {
     const std::vector<std::string> names = phase_names(journal_.plan);
     const Calibration found = calibrate_after(finished_, journal_.plan.method, ml_choice(journal_.plan));
@@ -270,7 +271,7 @@ class Session {
     return journal_.loaded.contains(names[phase + 1]) || upload(found, file, folder_ / names[phase]);
   }
 
-  /// False if it is decided that the robot keeps what it carries. `runs`: the folder of the phase that was driven last.
+  /// False if it is decided that the robot keeps its factors. `runs`: the folder of the phase that was driven last.
   bool upload(const Calibration& found, const fs::path& file, const fs::path& runs) {
     ParameterFile calibration = read_parameter_file(file);
     const robot::RemoteParameters robot = robot::RemoteParameters::fetch(client_);

@@ -16,12 +16,11 @@
 
 namespace astro::experiment {
 
-/// What an experiment says that is driven until a precision is reached. Values: the phase, how many squares
-/// there are in each direction, and the precision that they give or, of most_squares, the one that was asked
-/// for in percent.
+/// Notices of an experiment that is driven until a precision is reached. Values: the phase, the number of squares in each
+/// direction, and the precision that they give or, for most_squares, the requested one in percent.
 enum class PrecisionNotice { reached_by_now, most_squares };
 
-/// What a person wants to be done about a run that is driven.
+/// What a person wants to do about a run that was driven.
 enum class Redo {
   no,           // it is right
   enter_again,  // its ground truth is entered again, or read again from a file that is corrected
@@ -31,13 +30,14 @@ enum class Redo {
 /// What becomes of a calibration that was found.
 enum class Decision {
   load,   // into the robot, and the experiment goes on
-  keep,   // the robot keeps what it carries, and the experiment ends with what was driven
-  later,  // nothing yet: the same experiment asks again
+  keep,   // the robot keeps its factors, and the experiment ends with the phases driven so far
+  later,  // undecided: the experiment asks again when it is resumed
 };
 
-/// Gives runs their truth; those that get none stay without. May throw to end the experiment for now.
+/// Adds ground truth to runs; may leave some runs without. May throw to end the experiment for now.
 ///
-/// `others`  the films of earlier phases (RunInfo::truth_film), which cannot show these runs, though the robot drives the same there
+/// `others`  the films of earlier phases (RunInfo::truth_film). They must not be used for these runs, although they would
+///           fit, because the robot drives the same in each phase.
 using GiveTruth =
     std::function<void(const std::string& phase, RunSet& set, const std::vector<std::string>& others)>;
 
@@ -57,12 +57,12 @@ struct ExperimentHooks {
   /// A run whose ground truth comes from a person or a file does not fit the others; it may be an earlier one. Not called
   /// again for a run that is said to be right.
   std::function<Redo(const DoubtfulRun&)> doubt = [](const DoubtfulRun&) { return Redo::no; };
-  /// All runs of a phase are driven, and their truth comes now, for all of them.
+  /// Called when all runs of a phase are driven, if their truth comes for all of them together.
   GiveTruth give_truth = [](const std::string&, RunSet&, const std::vector<std::string>&) {};
   /// A calibration was found, and would change these parameters of the robot. Called before anything is decided.
   std::function<void(const Calibration&, const std::vector<Change>&)> calibrated =
       [](const Calibration&, const std::vector<Change>&) {};
-  /// Whether these changes are loaded. Not called if there are objections (change_guard.hpp).
+  /// Whether these changes are loaded. Not called if there are objections (change_guard.hpp), unless `force` is set.
   std::function<Decision(const Calibration&, const std::vector<Change>&)> decide =
       [](const Calibration&, const std::vector<Change>&) { return Decision::load; };
   bool force = false;  // upload in spite of objections, each of which is a notice then

@@ -92,7 +92,7 @@ void require_recorded(const fs::path& folder, const Journal& journal, std::size_
   }
 }
 
-/// The squares of a phase, those behind a gap included.
+/// The index of the last square of a phase, even if earlier ones are missing.
 int last_recorded_square(const fs::path& folder, const Plan& plan, std::size_t phase) {
   if (!open_ended(plan, phase)) return plan.runs;
   int last = squares_in_phase(folder, plan, phase);
@@ -113,7 +113,7 @@ void require_recorded(const fs::path& folder, const Journal& journal) {
 void require_same(const fs::path& folder, const Journal& journal, const Plan& plan,
                   const RobotIdentity& identity) {
   Plan same = plan;
-  // Nobody chooses these, and an experiment that an older version began goes on with its own.
+  // No option sets these, so an experiment that an older version began goes on with its own values.
   same.circles = journal.plan.circles;
   same.circle_turns = journal.plan.circle_turns;
   if (nlohmann::json(journal.plan) != nlohmann::json(same))

@@ -29,11 +29,11 @@ std::string to_drive_again(const std::filesystem::path& recording);
 /// The journal in `folder`, of an experiment that began there earlier; if there is none, one that begins now with this
 /// plan and this robot, and is written.
 ///
-/// What the experiment goes on from is read and judged here, before anything moves: each recording that is there, as
-/// require_usable does, and that none is missing of a phase that is over.
+/// Checks before anything moves what the experiment resumes from: each recording that is there, as require_usable does, and
+/// that no recording of a finished phase is missing.
 ///
-/// Throws astro::Error if the folder holds another plan or another robot's experiment, or naming the recording with which the
-/// experiment could not come to its end.
+/// Throws astro::Error if the folder holds another plan or another robot's experiment, or if the experiment could not be
+/// completed with one of its recordings, which it names then.
 Journal open_journal(const std::filesystem::path& folder, const Plan& plan, const robot::Client& client);
 
 /// Whether the next phase has begun, with other factors in the robot, so that no run of this one can be driven again.

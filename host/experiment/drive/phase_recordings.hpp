@@ -11,15 +11,15 @@
 
 namespace astro::experiment {
 
-/// The recordings of the phase that an experiment is driving, as they are on disk: what is calibrated and reported is
-/// what was kept. Each file is read once, however often the runs are looked at while the phase grows.
+/// The recordings of the phase that an experiment is driving. They are read from the disk, so that exactly what was saved is
+/// calibrated and reported. Each file is read once, although the runs are evaluated repeatedly while the phase grows.
 ///
 /// Errors  read() and doubtful() throw what recording::read_run throws.
 class PhaseRecordings {
  public:
   explicit PhaseRecordings(std::filesystem::path folder) : folder_(std::move(folder)) { start(); }
 
-  /// Begins with none. Those that recordings() returned stay as they are.
+  /// Begins again without recordings. Those that recordings() returned stay as they are.
   void start();
 
   /// Reads the recordings of `specs` that were not read yet. Precondition: `specs` begins with those that were
@@ -30,7 +30,7 @@ class PhaseRecordings {
   std::size_t size() const { return specs_.size(); }
   std::shared_ptr<const Recordings> recordings() const { return recordings_; }
 
-  /// doubtful_runs among these, which are read if they were not yet; the same precondition.
+  /// Reads these recordings as read() does, with the same precondition, and returns the doubtful_runs among them.
   std::vector<DoubtfulRun> doubtful(std::span<const RunSpec> specs);
 
  private:

@@ -26,13 +26,13 @@ double driving_s(const Plan& plan, const RunSpec& spec) {
   return time_s;
 }
 
-/// How a robot misses what it is told.
+/// How a robot deviates from what it is commanded.
 struct Miss {
   double veers_radpm = 0;  // turns on a straight metre
   double turns = 1;        // real over commanded turn
 };
 
-/// A point that drives, and how far it came.
+/// A point that drives along segments and extends the field that it has covered.
 class Walk {
  public:
   explicit Walk(const Miss& miss) : miss_(miss) {}
@@ -43,7 +43,7 @@ class Walk {
     const double step_rad = miss_.turns * turn_rad(segment) / kSteps + miss_.veers_radpm * step_m;
     for (int i = 0; i < kSteps; ++i) {
       const double middle_rad = heading_rad_ + step_rad / 2;
-      x_m_ += step_m * std::cos(middle_rad);  // the arc for its chord
+      x_m_ += step_m * std::cos(middle_rad);  // the arc's length for its chord's
       y_m_ += step_m * std::sin(middle_rad);
       heading_rad_ += step_rad;
       field = {std::min(field.from_ahead_m, x_m_), std::max(field.to_ahead_m, x_m_),

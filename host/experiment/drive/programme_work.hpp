@@ -4,7 +4,8 @@
 
 #include "host/experiment/files/plan.hpp"
 
-/// How long an experiment takes, and how much floor: what a person wants to know before the robot drives.
+/// Forecasts how long an experiment takes and how much floor it needs, so that a person knows it before the
+/// robot drives.
 namespace astro::experiment {
 
 /// The runs of a plan that are not recorded in its folder yet.
@@ -14,10 +15,10 @@ struct ProgrammeWork {
 };
 ProgrammeWork work_of(const Plan& plan, const std::filesystem::path& folder);
 
-/// Where the middle of the axle goes in one phase, from where it stands at first and along the way that it
-/// points to: metres ahead and metres to the left, one run behind the other. Nobody has calibrated the robot
-/// yet: the field holds what it drives with wheels that differ by up to 0.5 % and a wheelbase that is up to 1 %
-/// off, which turns each square further about its start.
+/// The rectangle that the middle of the axle covers in one phase, in the start pose's frame: metres ahead and
+/// metres to the left. Each run begins where the one before ended. The robot is not calibrated yet, so the
+/// field allows for wheels that differ by up to 0.5 % and a wheelbase that is wrong by up to 1 %, which turn
+/// each square further about its start.
 struct DrivenField {
   double from_ahead_m = 0, to_ahead_m = 0, from_left_m = 0, to_left_m = 0;
 };

@@ -20,11 +20,11 @@ using protocol::Telemetry;
 
 constexpr auto kRest = 700ms;  // at each end; host/recording/rest.hpp needs more than 200 ms
 constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
-constexpr int kSamplesPerLook = 5;  // at the truth
+constexpr int kSamplesPerLook = 5;  // odometry samples between two polls of the truth
 
-/// Puts ground truth that is on this computer's clock onto the robot's, by an offset that does not change
-/// during a recording: a map that follows every round trip would bend the time, and look like a motion. The
-/// calibration finds what is left of the offset, and the skew.
+/// Puts ground truth that is on this computer's clock onto the robot's, by a clock offset that does not
+/// change during a recording: a map that follows every round trip would distort time, which looks like a
+/// motion. The calibration estimates the rest of the offset, and the skew.
 class TruthTime {
  public:
   TruthTime(robot::Client& client, const truth::Source& truth)

@@ -8,7 +8,7 @@
 
 namespace astro::experiment {
 
-/// What is wrong with an e or a kappa0. Values: what it is from, its name, and what is there.
+/// What is wrong with an e or a kappa0. Values: its source, its name, and the value found there.
 enum class CurvatureProblem { of_no_robot, is_text };
 
 /// `factors` with e and kappa0; without them a robot turns every arc about b (e = 0). `where`: what the numbers are from,
@@ -22,7 +22,7 @@ calibration::WheelFactors with_curvature(calibration::WheelFactors factors, std:
 void require_no_text(const NamedValues& values, const std::string& name, const std::string& where);
 inline void require_no_text(const std::map<std::string, double>&, const std::string&, const std::string&) {}
 
-/// The same as with_curvature from values by the parameters' names. Text is no number.
+/// The same as with_curvature, from values by the parameters' names. Throws for text, too.
 template <class Values>
 calibration::WheelFactors with_curvature_named(const calibration::WheelFactors& factors, const Values& values,
                                                const std::string& where) {

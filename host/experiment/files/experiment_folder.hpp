@@ -12,13 +12,13 @@ namespace astro::experiment {
 /// Squares of a phase that are recorded in both directions without a gap.
 int recorded_squares(const std::filesystem::path& folder, const Plan& plan, std::size_t phase);
 
-/// How many squares a phase has in each direction: those planned, or those recorded where it is open-ended.
+/// How many squares a phase has in each direction: those planned or, if it is open-ended, those recorded.
 int squares_in_phase(const std::filesystem::path& folder, const Plan& plan, std::size_t phase);
 
 /// Where a run of an experiment is kept.
 std::filesystem::path file_of(const std::filesystem::path& folder, const RunSpec& spec);
 
-/// Where its drive is kept as long as the truth is missing that comes afterwards; not listed as a recording.
+/// Where a run's drive is kept until its truth comes afterwards; not listed as a recording.
 std::filesystem::path file_without_truth(const std::filesystem::path& folder, const RunSpec& spec);
 
 /// The first of these runs that is not recorded; null if all are.

@@ -9,8 +9,8 @@ namespace astro::experiment {
 
 nlohmann::json to_json(const calibration::WheelFactors& factors);
 
-/// The same back. Older versions have neither e nor kappa0: then e is 0. Throws nlohmann::json::exception for another key
-/// that is missing, or a value that is no number.
+/// Reads the factors back. Older versions have neither e nor kappa0: then e is 0. Throws nlohmann::json::exception for
+/// another key that is missing, or a value that is no number.
 calibration::WheelFactors factors_in(const nlohmann::json& json);
 
 }  // namespace astro::experiment

@@ -49,7 +49,7 @@ std::vector<std::string> sessions_by_folder(std::span<const fs::path> files) {
     names[folders.emplace_back(folder_of(file))];
     deepest = std::max(deepest, depth_of(folders.back()));
   }
-  // Whole paths differ, so the loop ends with names that do at the latest there.
+  // Whole paths are unique, so the loop ends with unique names at the latest when it uses whole paths.
   for (std::size_t parts = 1; parts <= deepest; ++parts) {
     for (auto& [folder, name] : names) name = tail_of(folder, parts);
     if (tells_apart(names)) break;

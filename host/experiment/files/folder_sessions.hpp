@@ -7,7 +7,7 @@
 
 #include "host/experiment/files/run_set.hpp"
 
-/// Sessions by folder, for those who keep each day's or each mounting's drives in a folder of its own.
+/// Sessions by folder, for users who keep the drives of each day or each mounting in a separate folder.
 namespace astro::experiment {
 
 /// The name of the folder in which each file lies, with as many folders above it as tell it apart from the folders of the other
@@ -15,11 +15,11 @@ namespace astro::experiment {
 /// folder, as some bags are, lies in the folder above.
 std::vector<std::string> sessions_by_folder(std::span<const std::filesystem::path> files);
 
-/// The same for drives whose wheels and whose ground truth are files of their own. Drives are of one session only if both
-/// their wheels and their ground truth lie in one folder: then neither `wheels/monday` with `takes` nor `wheels` with
-/// `takes/monday` nor `monday/wheels` with `monday/takes` is mixed with Tuesday's. To split a session costs a little
-/// precision, but to mix two puts the tracked body where it never sat. The name is that of the folder of the ground truth,
-/// followed by that of the wheels if it is another. Precondition: as many of one as of the other.
+/// The same for drives whose wheels and ground truth are separate files. Two drives are of one session only if their wheels
+/// lie in one folder and their ground truth lies in one folder. So `wheels/monday` with `takes`, `wheels` with
+/// `takes/monday`, and `monday/wheels` with `monday/takes` are each kept apart from Tuesday's. To split a session costs a
+/// little precision, but to mix two gives a wrong lever arm. The name is that of the ground truth's folder, followed by that
+/// of the wheels' folder if it is another. Precondition: as many files of wheels as of ground truth.
 std::vector<std::string> sessions_by_folder(std::span<const std::filesystem::path> wheels,
                                             std::span<const std::filesystem::path> truth);
 

@@ -22,7 +22,8 @@ struct Journal {
   std::string robot_id, robot_name, board, firmware, started_at;
   /// The factors loaded in the robot when a phase began, by phase.
   std::map<std::string, calibration::WheelFactors> loaded;
-  /// Recordings whose ground truth looks mistyped and was said to be right: "before/square-cw-3.mcap".
+  /// Recordings whose ground truth looks mistyped, but which a person has confirmed:
+  /// "before/square-cw-3.mcap".
   std::set<std::string> confirmed;
 };
 

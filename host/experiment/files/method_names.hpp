@@ -9,7 +9,7 @@
 /// The names of methods and orders that people type.
 namespace astro::experiment {
 
-/// Values: the word, what it is no name of, and the names that there are.
+/// What is wrong with a name. Values: the word, the kind of name that was expected, and the valid names.
 enum class NameProblem { unknown };
 
 inline constexpr std::string_view kAutomaticName = "auto";

@@ -161,7 +161,7 @@ void from_json(const nlohmann::json& json, Plan& plan) {
   json.at("line_m").get_to(plan.line_m);
   json.at("circle_radius_m").get_to(plan.circle_radius_m);
   const auto count_or_one = [&](const char* key) { return json.contains(key) ? count_at(json, key) : 1; };
-  plan.circles = count_or_one("circles");  // older versions drove one of one turn
+  plan.circles = count_or_one("circles");  // older versions drove one circle of one turn
   plan.circle_turns = count_or_one("circle_turns");
   json.at("extras").get_to(plan.extras);
   plan.method = method_named(json.at("method").get<std::string>(), json.at("angles").get<std::string>(),

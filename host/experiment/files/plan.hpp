@@ -13,7 +13,7 @@
 /// What an experiment drives, in which order, and the name of each run.
 namespace astro::experiment {
 
-/// What cannot be driven, all but the first for a precision.
+/// Why a plan cannot be driven. All but the first are about plans that are driven until a precision is reached.
 enum class PlanProblem {
   out_of_range,  // values: the name in the file of a plan, and the number
   order_of_open_ended,
@@ -49,11 +49,12 @@ struct Plan {
   int rounds = 1;  // how often to calibrate, upload and drive again
   double line_m = 3;
   double circle_radius_m = 0.75;
-  /// Circles in each direction, and the turns of each: so many that with the squares' spins they show e, of which a circle
-  /// of this radius has a quarter. With the slip of the thesis's robot one of one turn each knows it to 0.02, these to 0.004.
+  /// Circles in each direction, and the turns of each: enough to determine e together with the squares' spins, although a
+  /// circle of this radius shows only a quarter of e. With the slip of the thesis's robot, the standard error of e is 0.004
+  /// with these and 0.02 with one circle of one turn each.
   int circles = 2, circle_turns = 3;
-  /// Line and circles in the first and the last phase. A person who measures ends is asked for three lines instead: they
-  /// give the scale, of three one may be wrong, and no method uses the end of a circle.
+  /// Line and circles in the first and the last phase. If a person measures the ends, three lines are driven instead: they
+  /// give the scale, one of the three may be wrong, and no method uses the end of a circle.
   bool extras = true;
   MethodChoice method;
   std::string truth;  // name of the source
@@ -89,8 +90,8 @@ std::vector<RunSpec> runs_of_phase(const Plan& plan, std::size_t phase, int squa
 std::vector<RunSpec> squares_of_phase(const Plan& plan, std::size_t phase, int squares);
 
 void to_json(nlohmann::json& json, const Plan& plan);
-/// Throws nlohmann::json::exception for a missing key or a value of another type, and astro::Error for a count
-/// that is none or an unknown name. Call check() for the ranges.
+/// Throws nlohmann::json::exception for a missing key or a value of another type, and astro::Error for a number that is no
+/// count or an unknown name. Call check() for the ranges.
 void from_json(const nlohmann::json& json, Plan& plan);
 
 std::string_view name_of(Order order);

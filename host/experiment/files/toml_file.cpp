@@ -36,7 +36,8 @@ class Nesting {
     if (c == '#') return skip_to_end_of_line();
     if (c == '[' || c == '{') ++brackets_;
     if (c == ']' || c == '}') --brackets_;
-    // A key ends at each of these; blanks may stand round its dots.
+    // Each of the characters in the string below ends a key; a blank does not, because blanks may stand
+    // around dots.
     if (c == '.') ++dots_;
     if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) dots_ = 0;
     advance(1);
@@ -69,7 +70,7 @@ class Nesting {
 
 constexpr std::string_view kAnnounced = " The last line is '# end'.\n", kEnd = "# end\n";
 
-/// Its end may be followed by what somebody has added.
+/// The announced line need not be the last one, because somebody may have added lines after it.
 bool is_cut_off(std::string_view text) {
   const std::string_view first = text.substr(0, std::min(text.find('\n') + 1, text.size()));
   return first.ends_with(kAnnounced) && text.find("\n" + std::string(kEnd)) == std::string_view::npos;

@@ -42,14 +42,14 @@ int run(int argc, char** argv) {
   return code;
 }
 
-/// A thread, a descriptor, a socket of a library.
+/// For a thread, a descriptor or a socket of a library that the system refuses.
 std::string refused_by_system(const std::system_error& error) {
   return "the system refuses what this program needs: " + astro::system_reason(error.code().value());
 }
 
-/// The terminate handler, for exceptions where none may pass, for example inside the standard library's
-/// folder iterator. It prints the same as main() would, and leaves no core file. An armed robot stops by its
-/// own time-out.
+/// The terminate handler, for exceptions at places that they must not leave, for example inside the standard
+/// library's folder iterator. It prints the same as main() would, and leaves no core file. An armed robot
+/// stops by its own time-out.
 [[noreturn]] void report_and_terminate() {
   try {
     if (const std::exception_ptr why = std::current_exception()) std::rethrow_exception(why);

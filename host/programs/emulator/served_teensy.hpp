@@ -14,8 +14,8 @@
 
 namespace astro::emulator {
 
-/// How an image gets into an emulated Teensy that waits in its boot loader: through a FIFO that exists only
-/// as long as the object. A program that writes an image into it stands in for teensy_loader_cli:
+/// Loads an image into an emulated Teensy that waits in its boot loader, through a FIFO that exists as long
+/// as the object. A program that writes an image into it stands in for teensy_loader_cli:
 ///
 ///   cat firmware.hex > robot.halfkay
 class HalfKay {
@@ -39,7 +39,7 @@ class HalfKay {
 /// at the path of its pty + ".halfkay"; flashing keeps the sectors of the parameters, as on a Teensy.
 class ServedTeensy : public simulation::ServedRobot {
  public:
-  /// The robot of config_of(robot, server). Errors as that and Teensy.
+  /// The robot of config_of(robot, server). Throws what that and Teensy throw.
   ServedTeensy(const std::filesystem::path& hex, const simulation::RobotOptions& robot,
                const simulation::MocapConfig& mocap, const simulation::ServerConfig& server);
   ~ServedTeensy() override;

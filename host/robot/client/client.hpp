@@ -41,7 +41,7 @@ namespace astro::robot {
 class Client {
  public:
   explicit Client(std::unique_ptr<Transport> transport);
-  explicit Client(Transport& transport);  // which outlives the Client
+  explicit Client(Transport& transport);  // which must outlive the Client
 
   /// Handshake, after dropping old bytes; must be called first. Throws Error with the reason: no answer, not
   /// a robot, the line sends back what we send, another protocol version.
@@ -74,8 +74,9 @@ class Client {
     return std::get<Listeners<M>>(listeners_).add(std::move(callback));
   }
 
-  /// Whether another host or program has stopped the robot since this was asked before; not the first time. Whoever drives
-  /// several times asks before each: a stop that came in between was meant for the next drive, too. Survives reconnect().
+  /// Returns true if another host or program has stopped the robot since the previous call; the first call returns false. A
+  /// program that drives several times must call this before each drive, because a stop between two drives also holds for
+  /// the next one. The count survives reconnect().
   bool learns_of_stop(const protocol::Status& status) {
     const auto before = std::exchange(stops_known_, status.stops_by_others);
     return before && *before != status.stops_by_others;
@@ -106,7 +107,7 @@ class Client {
   }
 
   std::uint16_t next_id() {
-    // Never with the bit of onlookers, whose requests do not keep a drive alive.
+    // The id never has the onlooker bit, because requests with that bit do not keep a drive alive.
     return next_id_ = static_cast<std::uint16_t>(next_id_ + 1 == protocol::kOnlookerBit ? 1 : next_id_ + 1);
   }
   void send(Body frame);
@@ -137,7 +138,7 @@ class Client {
 
   std::uint16_t next_id_ = 0;
   std::uint16_t waiting_for_ = 0;    // 0: no request is under way
-  std::vector<std::uint8_t> reply_;  // to it; empty until it arrives
+  std::vector<std::uint8_t> reply_;  // to that request; empty until it arrives
   std::optional<Sent> ping_;         // under way
   int lost_pings_ = 0;               // in a row
   microseconds last_sent_{}, last_ping_{};

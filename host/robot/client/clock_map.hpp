@@ -15,9 +15,9 @@ struct RoundTrip {
   std::int64_t received_us = 0;
 };
 
-/// Host time of something with a stamp of the robot's clock. `bound_us`: the error is at most this, if the
-/// two clocks drift at a constant rate (at most kGreatestDrift while the rate is not measured yet). Nothing
-/// is assumed about how the delay splits into the ways there and back.
+/// Host time that corresponds to a time stamp of the robot's clock. `bound_us`: the error is at most this, if
+/// the two clocks drift at a constant rate (at most kGreatestDrift while the rate is not measured yet). The
+/// bound holds however the delay splits between request and answer.
 struct HostTime {
   std::int64_t us = 0;
   double bound_us = 0;
@@ -26,7 +26,7 @@ struct HostTime {
 /// Maps the robot's clock to the host's from round trips.
 ///
 /// Filter  of every kGroup round trips only the fastest is kept: delays only add time, so the fastest one has
-///         the smallest error. The last kKept of them count.
+///         the smallest error. The last kKept of them are used.
 /// Fit     host = offset + slope * device by least squares through the middles of the kept round trips,
 ///         weighted by 1 / rtt^2. Slope 1 until they span ten times the best round trip.
 /// Error   each middle is wrong by at most rtt / 2 and the fit is linear in the middles, which gives the
@@ -51,7 +51,7 @@ class ClockMap {
   /// the slope is assumed, not measured.
   std::optional<double> drift() const;
 
-  /// After a restart of the robot.
+  /// To be called after a restart of the robot.
   void reset() { *this = ClockMap(); }
 
  private:

@@ -6,12 +6,13 @@
 #include "common/protocol/messages.hpp"
 #include "host/base/error.hpp"
 
-/// Who answers at a port: whether it is a robot, of which protocol version, and the same one as before.
+/// Checks what answers at a port: whether it is a robot, which protocol version it speaks, and whether it is
+/// the same robot as before.
 namespace astro::robot {
 
-/// Why a port leads to no robot that this program can talk to. Values: the port; then of the outdated ones
-/// the robot's protocol version and this program's, and of another robot its name and that of the robot
-/// before.
+/// Why this program cannot talk to a robot at a port. Values: the port; then for program_outdated and
+/// firmware_outdated the robot's protocol version and this program's, and for other_robot its name and the
+/// name of the robot that was there before.
 enum class HandshakeProblem {
   nothing_comes,
   no_frames,
@@ -24,7 +25,7 @@ enum class HandshakeProblem {
 
 /// What came back from a port at which no robot answered.
 struct NoAnswer {
-  Remark why_silent;  // what the transport knows; without a fact: nothing
+  Remark why_silent;  // the transport's reason; empty if it knows none
   bool echo = false;  // the line sends back what we send
   std::uint64_t bytes = 0, good_frames = 0;
 };

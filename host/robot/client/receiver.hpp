@@ -15,8 +15,8 @@ namespace astro::robot {
 /// kept.
 class Receiver {
  public:
-  /// The next body, valid until the next call. Nothing if none is complete by `deadline`, or after the first
-  /// bytes that arrived; the caller then calls again. Throws LinkLost.
+  /// The next body, valid until the next call. Reads at most once and waits until `deadline` at the longest;
+  /// nothing if no body is complete then, and the caller calls again. Throws LinkLost.
   std::optional<std::span<const std::uint8_t>> next(Transport& transport, microseconds deadline) {
     if (begin_ == end_) fill(transport, deadline);
     while (begin_ < end_) {

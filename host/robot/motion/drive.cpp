@@ -32,7 +32,7 @@ std::int32_t micro(double value, const char* what) {
   return static_cast<std::int32_t>(steps);
 }
 
-/// Behind other values of an error: a program at this port; nothing if it is not known.
+/// Appends the process id and the command line of another program to an error's values, if it is known.
 std::vector<std::string> with_program(std::vector<std::string> values, std::uint32_t pid,
                                       const CommandLine& command) {
   if (pid != 0) values.insert(values.end(), {std::to_string(pid), std::string(command.view())});
@@ -52,7 +52,7 @@ DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), 
   on_done_ = client_.on<SegmentDone>([this](const SegmentDone& done) {
     done_ = std::max(done_, done.tag);
     if (done.outcome != SegmentOutcome::aborted) return hooks_.segment_done(done);
-    if (aborted_ == 0) aborted_ = done.tag;  // those that waited behind it follow
+    if (aborted_ == 0) aborted_ = done.tag;  // segments that waited behind it are aborted, too
   });
   on_fault_ = client_.on<FaultRaised>([this](const FaultRaised& raised) {
     if (!fault_) fault_ = raised.fault;
@@ -103,7 +103,7 @@ void DriveSession::rest_and_disarm() {
   client_.request(Disarm{});
 }
 
-/// A stop that came between two drives of this program was meant for the next one, too.
+/// A stop between two drives of this program also holds for the next one.
 Status DriveSession::status_unless_stopped() {
   const Status status = client_.request(GetStatus{});
   if (!client_.learns_of_stop(status)) return status;
@@ -113,7 +113,7 @@ Status DriveSession::status_unless_stopped() {
               DriveProblem::stopped_by_another, with_program({}, users.stopper_pid, users.stopper_command));
 }
 
-/// A program that was killed leaves an armed robot behind; the robot notices it by its time-out.
+/// A program that was killed leaves an armed robot behind, until the robot's time-out ends that.
 void DriveSession::wait_until_free() {
   const microseconds deadline = client_.now() + kTimeToNotice;
   while (true) {
@@ -141,7 +141,7 @@ void DriveSession::arm() {
                    {faults}});
   }
   fault_.reset();
-  status_unless_stopped();  // the last thing before
+  status_unless_stopped();  // checked last, directly before Arm
   command(Arm{});
 }
 
@@ -220,7 +220,7 @@ void DriveSession::stop() {
   const Restore stopping(stopping_, true);
   command(Rest{});
   wait_until_power_off();
-  aborted_ = 0;  // this stop aborted it
+  aborted_ = 0;  // this stop caused the abort
 }
 
 void DriveSession::wait_until_power_off() {
@@ -263,7 +263,7 @@ void DriveSession::fail_busy() {
 
 /// The reason may arrive after the end: after a fault the robot reports the aborted segment first.
 void DriveSession::fail_ended(const std::string& done_to_robot, std::uint16_t aborted) {
-  client_.learns_of_stop(client_.request(GetStatus{}));  // whoever goes on after this does so on purpose
+  client_.learns_of_stop(client_.request(GetStatus{}));  // the error below reports the stop
   const FaultReport report = client_.request(GetFaults{});
   if (report.latched != 0) fail(report.first != Fault::none ? report.first : first_fault(report.latched));
   const PortUsers users = port_users(client_);

@@ -16,9 +16,9 @@
 
 namespace astro::robot {
 
-/// What keeps a program from driving a robot, ends its drive or is worth a notice. Values: of segment_aborted
-/// the segment, of ended_early what was done to the robot ("stopped"), of faults_left_behind the faults that
-/// were cleared; then the process id and the command line of the other program where they are known.
+/// Why a program may not drive a robot, why its drive ended, or why it gets a notice. Values: for segment_aborted the
+/// segment, for ended_early what was done to the robot ("stopped"), for faults_left_behind the faults that were cleared;
+/// then the process id and the command line of the other program, if they are known.
 enum class DriveProblem {
   stopped_by_another,
   armed_for_another,
@@ -29,8 +29,8 @@ enum class DriveProblem {
   faults_left_behind
 };
 
-/// Faults that a program leaves behind that ended or lost its link while the robot drove. Whoever arms the robot next may clear
-/// them; any other fault is for people.
+/// Faults that stay latched if a program ends or loses its link while the robot drives. The next program that arms the robot
+/// may clear them; any other fault must be cleared by a person.
 inline constexpr std::uint32_t kFaultsLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
 
 /// The first fault of a mask of latched ones; none if it is 0.
@@ -49,8 +49,8 @@ class DriveFault : public Error {
   Fault fault_;
 };
 
-/// The robot did not confirm that it is at rest and disarmed after a stop request: it may still move. Of the
-/// kind of what went wrong, or DriveProblem::stop_unconfirmed if that has none.
+/// The robot did not confirm that it is at rest and disarmed after a stop request: it may still move. Its kind is that of
+/// the error that occurred, or DriveProblem::stop_unconfirmed if that error has none.
 class NotStopped : public Error {
  public:
   using Error::Error;
@@ -61,9 +61,9 @@ struct DriveHooks {
   /// with Interrupted. For the flag that Ctrl-C sets. Not called while the robot ramps to rest, which ends by
   /// itself.
   std::function<bool()> interrupted = [] { return false; };
-  /// Sentences worth showing that are not errors.
+  /// Called with remarks that are worth showing but are not errors.
   std::function<void(const Remark&)> notice = [](const Remark&) {};
-  /// Each segment that was driven to its end; tags count from 1 in the order of the run.
+  /// Called for each segment that was driven to its end; tags count from 1 in the order of the run.
   std::function<void(const protocol::SegmentDone&)> segment_done = [](const protocol::SegmentDone&) {};
 };
 
@@ -76,9 +76,9 @@ struct DriveHooks {
 ///         stopped or disarmed the robot, which it names where it knows it; all that Client::request throws.
 class DriveSession {
  public:
-  /// Arms. Clears command_timeout and link_lost first, which an earlier program left behind by ending, and
-  /// says so in a notice; any other latched fault is thrown. Throws Error, without touching the robot, if it
-  /// stays armed for another program, or if another one has stopped it since this one drove.
+  /// Arms the robot. First clears the latched faults command_timeout and link_lost (kFaultsLeftBehind) and reports that in a
+  /// notice; throws DriveFault for any other latched fault. Throws Error, and changes nothing on the robot, if the robot
+  /// stays armed for another program, or if another program has stopped it since this one drove.
   explicit DriveSession(Client& client, DriveHooks hooks = {});
   DriveSession(const DriveSession&) = delete;
   DriveSession& operator=(const DriveSession&) = delete;
@@ -98,8 +98,8 @@ class DriveSession {
   /// As Client::pump, and throws as run() does.
   void pump(microseconds duration);
 
-  /// Ramps to rest, empties the queue and returns when the robot is at rest; the drive may go on. Throws if somebody else has
-  /// stopped the robot.
+  /// Ramps to rest, empties the queue and returns when the robot is at rest; more motion may follow. Throws if somebody else
+  /// has stopped the robot.
   void stop();
 
   /// Ramps to rest and disarms; the drive is over, and nothing else may be called. Throws NotStopped if the
@@ -130,7 +130,7 @@ class DriveSession {
   bool booted_ = false;
   bool stopping_ = false;
   bool ended_ = false;                                   // end() was called, successfully or not
-  std::uint16_t accepted_ = 0, done_ = 0, aborted_ = 0;  // tags; of the run under way
+  std::uint16_t accepted_ = 0, done_ = 0, aborted_ = 0;  // tags of the run under way
   Subscription on_done_, on_fault_, on_boot_;
 };
 

@@ -21,7 +21,7 @@ bool stop_left_drive(Client& client, microseconds command_timeout) {
   constexpr microseconds kLongestTrusted =
       std::chrono::seconds(1);  // by then the robot has stopped by itself
   if (command_timeout > microseconds::zero() && command_timeout <= kLongestTrusted) return false;
-  // The mode first: a program that begins to drive after that is among those that are asked for next.
+  // The mode is read first: a program that begins to drive after that is found by port_users().
   const protocol::Mode mode = client.request(protocol::GetStatus{}, kPatience).mode;
   if (!protocol::gives_power(mode) || mode == protocol::Mode::stopping) return false;
   if (port_users(client).driver_pid != 0) return false;

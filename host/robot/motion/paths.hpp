@@ -11,7 +11,7 @@
 /// Errors  astro::Error where a number is not finite or outside what a segment can hold.
 namespace astro::robot {
 
-/// What no path or speed can be. Values: what it is, with its unit, and the number.
+/// A path or speed that is not possible. Values: the quantity with its unit, and the number.
 enum class PathProblem { impossible_number };
 
 using Path = std::vector<protocol::AddSegment>;
@@ -27,7 +27,7 @@ constexpr double turns_from_degrees(double degrees) { return degrees / 360; }
 /// Straight ahead; backwards if negative.
 Path line(double length_m, PathLimits limits = {});
 
-/// On the spot.
+/// Turns on the spot.
 Path spin(double turns, PathLimits limits = {});
 
 /// The robot's centre moves along `length_m` while the heading changes by `turns`; backwards if the length is

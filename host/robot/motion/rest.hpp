@@ -4,9 +4,9 @@
 
 namespace astro::robot {
 
-/// Waits until a robot that received a stop request gives no more power, for as long as its motion limits
-/// allow a ramp to take and at least five seconds. If it still drives then, it is disarmed, which opens its
-/// bridges at once: it may roll on.
+/// Waits until a robot that received a stop request no longer powers its motors. The time limit is the
+/// longest ramp that the motion limits allow, and at least five seconds. A robot that still drives then is
+/// disarmed, which opens its bridges at once, so it may roll on.
 ///
 /// Returns false if it had to be disarmed.
 /// Errors  all that Client::request throws.

@@ -21,7 +21,7 @@ double far_factor(std::string_view name) {
       "speed_limit",    "yaw_rate_limit",    "acceleration_limit", "yaw_acceleration_limit", "jerk_limit",
       "yaw_jerk_limit", "motor_voltage_max", "battery_low",        "battery_high",           "over_speed"};
   const auto among = [name](const auto& names) { return std::ranges::find(names, name) != names.end(); };
-  if (name == "kappa0") return 10;  // drives fit alike with a fifth or with five times as much
+  if (name == "kappa0") return 10;  // a fifth or five times of it fits drives about as well
   if (is_wheel_factor(name)) return 1 + kMostChange;
   if (among(kNominalSizes)) return 1.25;
   return among(kLimits) ? 2 : 3;
@@ -32,7 +32,7 @@ std::string times(double ratio) {
   return ratio > 1 ? fmt::format("{:.3g} times as much", ratio) : fmt::format("1/{:.3g} of it", 1 / ratio);
 }
 
-/// What 0 switches off, where a person should know it; "" elsewhere.
+/// What 0 switches off, as a clause, if a person should know it; otherwise "".
 std::string_view lost_by_zero(std::string_view name) {
   return name == "command_timeout" ? ", and without it a robot keeps driving if its host disappears" : "";
 }

@@ -8,8 +8,8 @@
 
 namespace astro::robot {
 
-/// What is wrong with a parameter. Values: its name; then of out_of_range the value and the limits, and of
-/// wrong_length the number of bytes. The last three are about all of them: of too_many their number.
+/// What is wrong with a parameter. Values: its name; then for out_of_range the value and the limits, and for wrong_length
+/// the number of bytes. The last three kinds concern all parameters together; too_many has their number as its value.
 enum class ParameterProblem {
   unknown,
   is_text,
@@ -26,7 +26,7 @@ enum class ParameterProblem {
 /// A value as people write and read it: a number in the row's unit, or a text.
 using Value = std::variant<double, std::string>;
 
-/// A value as the robot holds it. The text is empty unless the row's kind is text, raw is 0 if it is.
+/// A value as the robot holds it. The text is empty unless the row's kind is text; raw is 0 if it is.
 struct RawValue {
   std::int32_t raw = 0;
   std::string text;
@@ -39,7 +39,7 @@ struct ParameterRow {
   std::string name, unit, doc;
   protocol::ParameterKind kind{};
   int exponent = 0;
-  std::int32_t minimum = 0, maximum = 0;  // raw; of a text: of its length in bytes
+  std::int32_t minimum = 0, maximum = 0;  // raw; for a text: limits of its length in bytes
   std::int32_t default_value = 0;         // raw; the table has no default of a text
   RawValue active;                        // in force
   RawValue staged;                        // what a commit would put in force
@@ -49,7 +49,7 @@ struct ParameterRow {
 double to_real(const ParameterRow& row, std::int32_t raw);
 
 /// The number with the fewest digits that the robot stores as this raw one: 1.002 for c_R, which the robot holds as
-/// 1.0020000003278255. What is computed with needs to_real(). Not for texts.
+/// 1.0020000003278255. Calculations must use to_real(). Not for texts.
 double to_shortest(const ParameterRow& row, std::int32_t raw);
 
 /// A raw value as people read and wrote it: the shortest number, or the text.
@@ -59,7 +59,7 @@ Value to_value(const ParameterRow& row, const RawValue& raw);
 /// allow: not a number, out of range, a fraction for an integer or flag, a number for a text and the reverse.
 RawValue to_raw(const ParameterRow& row, const Value& value);
 
-/// The same in digits: "0.9" for a gain of 0.899993896484375.
+/// to_shortest() as text: "0.9" for a gain of 0.899993896484375.
 std::string shortest(const ParameterRow& row, std::int32_t raw);
 
 /// "0.05 m to 2 m". Not for texts.

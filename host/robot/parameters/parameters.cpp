@@ -69,7 +69,7 @@ std::string geometry_rule(const Staged& staged, std::string_view name) {
   const auto b_m = staged.number("b");
   if (!travel_m || !b_m) return "";
   if (name == "b") {
-    const double narrower = std::min(staged.number("e").value_or(0), 0.0);  // in curves
+    const double narrower = std::min(staged.number("e").value_or(0), 0.0);  // gentle arcs: about b (1 + e)
     return "one count turns the robot by " + digits(degrees(*travel_m / (*b_m * (1 + narrower)))) +
            " degrees, and has to turn it by less than " + digits(360.0 / kFewestCountsPerTurn) +
            " degrees; that follows from " + staged.shown("b") + ", " +

@@ -16,15 +16,15 @@ namespace astro::robot {
 /// Errors  what Client::request throws; a refused value or set is named by its parameter.
 class RemoteParameters {
  public:
-  /// Many times today's number. Two requests for each take a second and a half on a slow link.
+  /// Many times the present number of parameters. To read so many, at two requests each, takes 1.5 s on a slow link.
   static constexpr std::uint16_t kMostParameters = 512;
 
   /// Two requests per parameter. The Client must outlive the result. Throws Error if the robot claims more
   /// than kMostParameters. `tries`: how often each request is sent, now and later, before the link counts as lost.
   static RemoteParameters fetch(Client& client, int tries = RetryPolicy().tries);
 
-  /// The same a little at a time, for callers that must not wait for all of it: begin() asks nothing yet, and each read_next()
-  /// reads one parameter, until is_complete().
+  /// The same in steps, for callers that must not wait for the whole table: begin() sends no request yet, and each
+  /// read_next() reads one parameter, until is_complete() returns true.
   static RemoteParameters begin(Client& client, int tries = RetryPolicy().tries);
   bool is_complete() const;
   void read_next();
@@ -40,7 +40,7 @@ class RemoteParameters {
 
   /// The same of a parameter that is a number. Throws Error if the robot has no such parameter, or a text there.
   double number(std::string_view name) const;
-  /// Of all parameters that are numbers.
+  /// The values of all parameters that are numbers.
   std::map<std::string, double> numbers() const;
 
   /// Stages a value; it is not in force before commit() or apply(). Throws as to_raw does, without asking the
@@ -65,7 +65,7 @@ class RemoteParameters {
 
   /// Reads all values again: one request per parameter.
   void refresh();
-  /// Those of the row with this index.
+  /// Reads the values of the row with this index again.
   void refresh(std::size_t index) { read_value(rows_.at(index)); }
 
  private:

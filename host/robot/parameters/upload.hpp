@@ -22,13 +22,14 @@ struct UploadReport {
   bool link_dropped = false;  // during the upload; the robot was found again and asked
   std::vector<UploadedValue> values;
 
-  /// What happened, and what the robot holds now: its kind is `active`, its value "link_dropped" if it was.
+  /// What happened, and what the robot holds now. Its kind is `active`; it has the value "link_dropped" if
+  /// the link dropped.
   Remark remark() const;
 };
 
 /// Puts new values in force as one set: checks all of them, opens the robot's staging area, stages, commits,
 /// reads the whole table back and compares. If the link drops, it reconnects within `reconnect_timeout` and
-/// asks which set the robot holds; a set that is not in force then is given up, not sent again.
+/// asks which set the robot holds; if the new set is not in force then, it is not sent again.
 ///
 /// Throws Error for a value that the table does not allow or a name that it does not have, before anything is
 /// changed; RobotRefused if the robot refuses the set and keeps the old one (staging_lost: another session

@@ -1,6 +1,7 @@
 #include "host/robot/port/serial_port.hpp"
 
-// termios2, for any baud, is the kernel's; glibc's <termios.h> cannot be included beside it.
+// termios2 allows any baud rate. It is in the kernel's headers; glibc's <termios.h> cannot be included beside
+// them.
 #include <asm/ioctls.h>
 #include <asm/termbits.h>
 #include <fcntl.h>

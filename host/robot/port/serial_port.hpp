@@ -28,8 +28,8 @@ class PortInUse : public Error {
 std::string port_key(const struct stat& about);
 std::string port_key_of(int descriptor);
 
-/// Opens and locks a serial port or pty for open_transport(), and throws what is said there; PortInUse if
-/// another program has locked it. Returns a non-blocking file descriptor. The lock is flock's: it ends with the
+/// Opens and locks a serial port or pty for open_transport(). Throws as that does, and PortInUse if another
+/// program has locked the port. Returns a non-blocking file descriptor. The lock is flock's: it ends with the
 /// process, however that ends.
 Descriptor open_serial_port(const std::string& path, unsigned baud);
 

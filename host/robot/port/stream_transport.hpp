@@ -18,8 +18,7 @@ class StreamTransport final : public Transport {
   /// Opens the address; called for each opening. Throws Error if it cannot.
   using Opener = std::function<Stream(boost::asio::io_context&)>;
 
-  /// Clauses of messages that depend on what is at the other end. The address comes before the values of
-  /// `lost`.
+  /// Message clauses that depend on what is at the other end. The address is put before the values of `lost`.
   struct Sentences {
     std::function<Remark()> lost = [] { return Remark{"it was unplugged, switched off or ended"}; };
     std::function<Remark()> silent = [] { return Remark{}; };
@@ -46,7 +45,7 @@ class StreamTransport final : public Transport {
   std::string name_;
   Opener open_;
   Sentences sentences_;
-  boost::asio::io_context context_;  // before stream_: outlives it
+  boost::asio::io_context context_;  // before stream_, so that it outlives it
   std::optional<Stream> stream_;     // empty once the other end is gone
   std::optional<microseconds> reopened_;
 };

@@ -45,7 +45,7 @@ class Transport {
   virtual void reopen(microseconds timeout) = 0;
 
   /// Why no bytes come although the line is open, if the robot is not the reason; to be called after a time-
-  /// out. May take half a second. Without a fact: not known.
+  /// out. May take half a second. Empty if the reason is not known.
   virtual Remark why_silent() { return {}; }
 
   /// The address as people know it: "/dev/ttyACM0".

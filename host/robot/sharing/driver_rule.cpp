@@ -55,14 +55,15 @@ void DriverRule::note_answer(SessionId id, std::uint8_t request, std::optional<E
   if (!refused) rule_.note(id, request);
   certainly_stopped_ = certainly_stopped_ || (!refused && protocol::stops(request));
   if (request == Arm::kId) note_answer_to_arm(id, !refused);
-  // Somebody at another port of the robot has stopped it.
+  // A driver that gets not_armed was stopped by somebody at another port of the robot.
   const bool motion = request == Velocity::kId || request == WheelVoltage::kId || request == AddSegment::kId;
   if (motion && refused == ErrorCode::not_armed && rule_.drives(id)) rule_.note(id, Stop::kId);
   const bool disarms = request == Disarm::kId || request == Reboot::kId || request == EnterBootloader::kId;
   if (disarms && !refused) end_drive();
 }
 
-/// A program that the robot lets drive is the driver, also if another's Disarm ended its claim in between.
+/// If the robot accepts an Arm, its sender is the driver, even if a Disarm of another program came in
+/// between.
 void DriverRule::note_answer_to_arm(SessionId id, bool accepted) {
   if (accepted) {
     driver_ = last_ = id;

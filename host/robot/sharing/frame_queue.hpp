@@ -18,12 +18,12 @@ class FrameQueue {
     insert(frames_.end(), frame, withdrawable);
   }
 
-  /// Puts a frame before all others that have not begun.
+  /// Puts a frame before all frames of which nothing was written yet.
   void push_first(std::span<const std::uint8_t> frame) {
     insert(begun_ == 0 ? frames_.begin() : frames_.begin() + 1, frame, false);
   }
 
-  /// Drops all frames that have not begun.
+  /// Drops all frames of which nothing was written yet.
   void drop_waiting() {
     drop_if([](const Frame&) { return true; });
   }

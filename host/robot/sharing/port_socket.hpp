@@ -10,17 +10,17 @@
 #include "host/robot/port/transport.hpp"
 #include "host/robot/sharing/port_user.hpp"
 
-/// The socket by which programs find the one that holds a port: an abstract one of Linux, named by the port's
-/// key. It ends with the program that listens, and it does not depend on environment variables: an emergency
-/// stop may come from another terminal, from cron or from ssh. Everybody can connect to it, so each side
-/// checks the other's user before it sends anything.
+/// The socket at which programs find the program that holds a port (the holder): a Linux abstract socket,
+/// named by the port's key. It ends with the program that listens, and it does not depend on environment
+/// variables, because an emergency stop may come from another terminal, from cron or from ssh. Everybody can
+/// connect to it, so each side checks the other's user before it sends anything.
 ///
 /// Rejected: a file in the folder that XDG_RUNTIME_DIR names. Two terminals may have different values there,
 /// and files outlive the programs that made them.
 namespace astro::robot {
 
 /// What is wrong with the program that holds a port. `not_shared`: other programs cannot connect to this one;
-/// it has the address. The others have the process id of the one that holds the port, where it is known.
+/// value: the port's address. Value of the others: the holder's process id, if it is known.
 enum class SharingProblem { not_shared, holder_hangs, holder_ended };
 
 /// Throws Error if the name is in use, by a program of another user or by one that has not ended yet.
@@ -38,14 +38,15 @@ std::string in_words(std::uint32_t pid, std::string_view command);
 
 /// The result of one try to be served by the program that holds a port.
 struct HolderConnection {
-  Descriptor connection;         // after its greeting; empty if it did not greet us
-  std::optional<PortUser> busy;  // the program that listens there but has not greeted us in time
+  Descriptor connection;         // after its Welcome; empty if none came
+  std::optional<PortUser> busy;  // the program that listens there but has sent no Welcome in time
 };
 
-/// Waits up to `timeout` for the greeting. Both members are empty if no program of this user listens there.
+/// Waits up to `timeout` for the holder's Welcome. Both members are empty if no program of this user listens
+/// there.
 HolderConnection connect_to(const std::string& port_key, microseconds timeout);
 
-/// What is said of HolderConnection::busy.
+/// The message about HolderConnection::busy.
 Remark holder_hangs(const PortUser& holder);
 
 }  // namespace astro::robot

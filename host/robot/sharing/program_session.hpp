@@ -18,8 +18,8 @@ class ProgramSession {
   SessionId id() const { return id_; }
   const PortUser& user() const { return user_; }
 
-  /// The request under way; null if there is none. A new one replaces it, because the program has given it up
-  /// then.
+  /// The request under way; null if there is none. A new one replaces it, because its program has given up
+  /// the old one.
   Exchange* current() { return current_ ? &*current_ : nullptr; }
   const Exchange* current() const { return current_ ? &*current_ : nullptr; }
   Exchange& begin(Exchange request) { return current_.emplace(std::move(request)); }
@@ -39,7 +39,7 @@ class ProgramSession {
   /// taken for an old one that had the same id before the program's ids wrapped.
   bool has_answered(const protocol::Header& request) const;
   const Bytes& answer() const { return answer_; }
-  /// If it is the request under way, that has ended.
+  /// If `request` is the request under way, it ends.
   void remember_answer(const protocol::Header& request, const Bytes& frame);
 
   /// Drops the requests under way and the last answer.

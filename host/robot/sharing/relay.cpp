@@ -13,8 +13,8 @@ using protocol::Header;
 
 namespace {
 
-// The most programs that do more than ask or stop; the most connections, some of which may be of hanging
-// programs.
+// At most kMostSlots programs may do more than ask or stop. At most kMostSessions are connected; some of them
+// may hang.
 constexpr std::ptrdiff_t kMostSlots = 32;
 constexpr std::size_t kMostSessions = 96;
 constexpr std::size_t kTelemetryLimit_bytes = 1U << 16;

@@ -22,14 +22,15 @@ struct RelaySession {
   std::optional<Farewell> closing;
   bool has_slot = false;  // may drive, change parameters or have telemetry
 
-  /// It has never sent anything.
+  /// The program has never sent a good frame.
   bool is_silent() const { return framer.counts().good == 0; }
   /// False beyond 64 KiB that wait. A program that computes or waits at a prompt for a while still gets the
   /// answers and events of that time, but of telemetry only as much as a serial port would buffer.
   bool takes_telemetry() const;
   /// Returns false, and drops the frame, beyond 256 KiB that wait: it must be disconnected then.
   [[nodiscard]] bool push(ByteView frame);
-  /// Nothing but the Farewell goes to it any more, after what waits already, unless it reads too slowly.
+  /// From now on only the Farewell is sent to it. Frames that wait already are sent before it, unless the
+  /// reason is that the program reads too slowly.
   void close(FarewellReason reason);
 };
 
@@ -41,8 +42,8 @@ struct RelaySession {
 /// Bounds     if a program does not read, its telemetry is dropped first; then it is disconnected. At most 32
 ///            programs drive, change parameters or have telemetry (they have a slot); asking and stopping
 ///            needs no slot. If too many are connected, one that has never sent anything is disconnected
-///            first: programs that hang must not keep out an emergency stop. Of a program that is being
-///            disconnected only the requests that halt the robot are passed on.
+///            first, so that hanging programs cannot keep out an emergency stop. From a program that is being
+///            disconnected, only the requests that halt the robot are passed on.
 class Relay {
  public:
   /// `greets`: the program gets a Welcome when it is served and a Farewell with the reason when it is
@@ -67,7 +68,7 @@ class Relay {
   void close_all(FarewellReason reason);
 
   std::optional<SessionId> driver() const { return requests_.driver(); }
-  /// A driver has gone, and the robot has not yet said that it stops.
+  /// A driver has gone, and the robot has not yet confirmed the relay's Stop.
   bool owes_stop() const { return requests_.owes_stop(); }
 
  private:

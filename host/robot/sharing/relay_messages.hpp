@@ -57,7 +57,8 @@ struct Welcome {
   static constexpr std::tuple<> kFields{};
 };
 
-/// Also the kind of the LinkLost that a program gets, whose value is the port's address.
+/// Why a connection ends. Also the kind of the LinkLost that a program gets, whose value is the port's
+/// address.
 enum class FarewellReason : std::uint8_t { line_lost, reads_too_slowly, too_many, holder_ended };
 inline constexpr std::array<std::string_view, 4> kFarewellReasonNames{"line_lost", "reads_too_slowly",
                                                                       "too_many", "holder_ended"};

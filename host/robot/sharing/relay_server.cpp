@@ -82,7 +82,7 @@ RelayServer::RelayServer(SharedLine shared)
   start(&RelayServer::run);
 }
 
-/// Of the Farewells each program gets as much as its socket takes at once.
+/// Sends each program its Farewell without waiting, so a program gets only what its socket takes at once.
 RelayServer::~RelayServer() {
   stop();
   if (lost_) return;
@@ -228,8 +228,8 @@ bool RelayServer::write_to(Connection& connection) {
   if (open && !why) return true;
   if (why && !connection.guest) own_end_ = static_cast<int>(*why);
   if (why && !connection.closing_since) connection.closing_since = steady_now();
-  // It is read until it disconnects: it may still stop the robot, and closing a socket with unread bytes would
-  // discard the Farewell before the program has read it.
+  // The connection is read until the program disconnects: the program may still stop the robot, and closing a socket with
+  // unread bytes would discard the Farewell before the program has read it.
   if (open && queue.empty() && !connection.told) {
     connection.told = true;
     ::shutdown(connection.socket.get(), SHUT_WR);

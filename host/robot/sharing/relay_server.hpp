@@ -39,9 +39,9 @@ class RelayServer {
   /// Serves nobody until leave_behind().
   void stop();
 
-  /// Leaves a process behind that goes on as serve_others_only() does, if other programs use the line; their
-  /// connections end if that fails. This process serves nobody from then on. Precondition: it has no other
-  /// thread, so every RelayServer of it has been stopped.
+  /// If other programs use the line, leaves a process behind that goes on as serve_others_only() does. If
+  /// that fails, their connections end. This process serves nobody from then on. Precondition: it has no
+  /// other thread, so every RelayServer of it has been stopped.
   void leave_behind();
 
   /// A connection for this program itself; it gets neither Welcome nor Farewell.

@@ -81,16 +81,17 @@ void RequestArbiter::take(SessionId id, ByteView body, microseconds now) {
   begin(session, Exchange(header, body), now);
 }
 
-/// Before anything else is sent, so that it does not stop the next driver.
+/// Must run before anything else is sent, so that this Stop does not stop the next driver.
 void RequestArbiter::stop_for_gone_driver(microseconds now) {
   if (!std::exchange(drive_left_, false)) return;
-  constexpr std::uint16_t kId = 1;  // the robot gets one of the queue's
+  constexpr std::uint16_t kId = 1;  // the queue replaces it
   cancel_motion(kGuard, Stop::kId);
   Exchange& exchange = sessions_.at(kGuard).begin(Exchange({Stop::kId, kId}, body_of(Stop{}, kId)));
-  to_robot_.send(exchange, true, now);  // in the driver's name: to the robot it is no stop by another
+  to_robot_.send(exchange, true, now);  // with a driver's id, so that it counts as the driver's own stop
 }
 
-/// An answer of the robot that still comes is dropped, so an Arm that was sent before a Stop does not undo it.
+/// Refuses the motion requests that other programs have under way. An answer that the robot still sends to
+/// one of them is dropped, so an Arm that was sent before a Stop does not undo it.
 void RequestArbiter::cancel_motion(SessionId by, std::uint8_t halt) {
   const ErrorCode why = protocol::stops(halt) ? ErrorCode::not_armed : ErrorCode::busy;
   for (auto& [id, session] : sessions_) {
@@ -153,8 +154,9 @@ void RequestArbiter::begin(ProgramSession& session, Exchange exchange, microseco
   if (staging_allows(session)) send(session, current, now);
 }
 
-/// The first Hello goes to the robot, where it ends the session of an earlier program; so does one after
-/// which the robot's answer may differ, as an onlooker's, which ends none. All others are answered here.
+/// The first Hello goes to the robot, where it ends the session of an earlier program. If the robot's answer
+/// may have changed since, a Hello goes to the robot again, but with an onlooker's id, which ends no session.
+/// All others are answered here.
 void RequestArbiter::take_hello(ProgramSession& session, Exchange exchange, microseconds now) {
   const auto hello = decode<Hello>(exchange.body);
   const Header header = exchange.header;
@@ -163,7 +165,7 @@ void RequestArbiter::take_hello(ProgramSession& session, Exchange exchange, micr
   if (!hello_) {
     Exchange& current = session.begin(std::move(exchange));
     if (driver_.driver() || greeted_) return turns_.wait(session.id());
-    to_robot_.send(current, true, now);  // with a driver's id, which shows that nobody drives
+    to_robot_.send(current, true, now);  // with a driver's id, which ends an earlier session
   } else if (hello->protocol_version != hello_->protocol_version) {
     reply_with(session, header, ErrorReply{ErrorCode::wrong_version, hello_->protocol_version});
   } else {
@@ -218,7 +220,8 @@ void RequestArbiter::take_answer(ByteView body, microseconds now) {
   }
 }
 
-/// To the robot all programs at this port are one, so what it says to one may be meant for another.
+/// The robot sees all programs at this port as one host, so its answer to one may contain what concerns
+/// another.
 Bytes RequestArbiter::for_program(const ProgramSession& session, const Header& asked, ByteView body) {
   Bytes answer = with_request_id(body, asked.request_id);
   if (asked.message_id == GetParameter::kId && staging_.hides_from(session.id()))

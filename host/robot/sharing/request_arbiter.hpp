@@ -21,20 +21,22 @@ struct Reply {
   Bytes frame;
 };
 
-/// The requests of all programs to the one robot: which go to it, when, and what answers the others.
+/// Decides which requests of all programs go to the robot and when, and answers the others.
 ///
 /// Ids        each program's request ids are replaced by new ones, so that an answer returns only to the
 ///            program that asked (exchange.hpp, robot_queue.hpp).
 /// Driver     one program at a time drives; the others are refused as busy (driver_rule.hpp). Requests of
 ///            programs that do not drive take turns (turns.hpp).
-/// Gone       a driver that disconnects, or says Hello, and may move the robot leaves nobody who would stop it: the relay does.
-///            Until the robot has said that it stops, nobody else's Arm goes to it.
+/// Gone       if a driver that may move the robot disconnects or sends Hello, the relay stops the robot, because nobody else
+///            would. Until the robot has confirmed that Stop, no Arm goes to it.
 /// Halt       Stop, EmergencyStop, Disarm and Pause never wait. Requests for motion that other programs sent
 ///            before, and that wait or have no answer yet, end as refused: the robot does not get them later.
 /// Hello      answered from the robot's last HelloReply, because a Hello ends a session at the robot.
-/// Telemetry  the robot sends one stream that serves all (telemetry_stream.hpp). Its setting and that Stop are the only
-///            requests of the relay itself, and the only ones that it repeats until the robot answers.
-/// Status     its count of the stops of others is that of the program that asks: those at this port are known here alone.
+/// Telemetry  the robot sends one stream that serves all (telemetry_stream.hpp). The request for that stream and the Stop
+///            for a driver that has gone are the only requests of the relay itself, and the only ones that it repeats until
+///            the robot answers.
+/// Status     the relay replaces the count of stops by others with that of the program that asks, because the robot cannot
+///            tell the programs at this port apart.
 /// Parameters if two programs change them at the same time, the one whose staged values are gone is refused as
 ///            staging_lost (staging_area.hpp).
 class RequestArbiter {
@@ -46,7 +48,7 @@ class RequestArbiter {
   void release(SessionId id);
   void leave(SessionId id);
 
-  /// The program sends again the request that is under way.
+  /// True if the program repeats the request that it has under way.
   bool repeats(SessionId id, const protocol::Header& request) const;
   /// A request of a program that has joined, with a request id other than 0.
   void take(SessionId id, ByteView body, microseconds now);
@@ -57,12 +59,12 @@ class RequestArbiter {
   /// Must be called at next_tick(); may be called at any time.
   void tick(microseconds now);
   std::optional<microseconds> next_tick() const;
-  /// A driver has gone, and the robot has not yet said that it stops.
+  /// A driver has gone, and the robot has not yet confirmed the relay's Stop.
   bool owes_stop() const { return drive_left_ || sessions_.at(kGuard).current() != nullptr; }
 
   /// The replies since the last call.
   std::vector<Reply> take_replies() { return std::exchange(replies_, {}); }
-  /// What this program gets of a sample of the robot's telemetry; nothing if it did not ask for that.
+  /// The part of a telemetry sample that this program requested; nothing if it requested none of it.
   std::optional<protocol::Telemetry> telemetry_for(SessionId id, const protocol::Telemetry& sample) {
     return telemetry_.part_for(id, sample);
   }
@@ -72,7 +74,7 @@ class RequestArbiter {
 
  private:
   using Header = protocol::Header;
-  // The relay itself: what stops the robot for a driver that has gone, and what asks for telemetry.
+  // The relay's own sessions: kGuard stops the robot for a driver that has gone, kSelf requests telemetry.
   static constexpr SessionId kGuard = -1, kSelf = 0;
 
   void reply(ProgramSession& session, const Header& request, ByteView body);
@@ -101,8 +103,8 @@ class RequestArbiter {
   Turns turns_;
   TelemetryStream telemetry_;
   StagingArea staging_;
-  bool drive_left_ = false;  // by a driver that has gone
-  bool greeted_ = false;     // the robot, since it started
+  bool drive_left_ = false;  // a driver has gone, and no Stop was sent for it yet
+  bool greeted_ = false;     // the robot has answered a Hello since it started
 };
 
 }  // namespace astro::robot

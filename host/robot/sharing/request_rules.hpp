@@ -25,7 +25,7 @@ constexpr bool sets_in_motion(std::uint8_t message) {
   return is_one_of(message,
                    std::array{Arm::kId, Velocity::kId, WheelVoltage::kId, AddSegment::kId, Resume::kId});
 }
-/// A request for motion that must not reach the robot after `halt`, if `halt` was sent later.
+/// True for a motion request that must not reach the robot any more after a later `halt`.
 constexpr bool is_cancelled_by(std::uint8_t message, std::uint8_t halt) {
   return stops(halt) ? sets_in_motion(message) : halt == Pause::kId && message == Resume::kId;
 }

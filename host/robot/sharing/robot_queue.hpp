@@ -14,8 +14,8 @@ namespace astro::robot {
 /// Order   Stop, EmergencyStop and Disarm overtake all frames that have not begun, and withdraw the requests
 ///         for motion among them. All others keep their order, Pause as well: it must come after the Arm or
 ///         Resume that was sent before it.
-/// Bounds  256 frames, beyond which a request is dropped; a stop or a pause still finds room up to 512. These
-///         are more than wait when all programs ask at the same time; beyond that the line itself has stopped.
+/// Bounds  a request is dropped if 256 frames wait already, a stop or a pause if 512 do. Fewer wait even if
+///         all programs ask at the same time, so a full queue means that the line itself has stopped.
 class RobotQueue {
  public:
   void send(Exchange& exchange, bool drivers, microseconds now);

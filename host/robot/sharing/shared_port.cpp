@@ -15,7 +15,7 @@
 
 namespace astro::robot {
 
-/// Those that other programs still use.
+/// The ports that this program has closed and other programs still use.
 class ClosedPorts {
  public:
   void add(std::unique_ptr<RelayServer> server) {

@@ -31,8 +31,8 @@ class SharedPorts {
   std::unique_ptr<Transport> open(
       const std::string& address, unsigned baud = kDefaultBaud, Notice notice = [](const Remark&) {});
 
-  /// The last act of the program, however its work ended. Precondition: its transports are closed and its
-  /// threads have ended.
+  /// Must be the last call of the program, however its work ended. Precondition: its transports are closed and its threads
+  /// have ended.
   void leave_to_others();
 
  private:

@@ -27,7 +27,7 @@ class Turns {
 
   /// It is this program's turn.
   bool has(SessionId id) const { return under_way_ == id; }
-  /// When the next one must be asked for although no answer came; nothing if nobody waits for that.
+  /// When next() must be called even if no answer came; nothing if no turn lasts or nobody waits.
   std::optional<microseconds> deadline() const;
 
  private:
