@@ -18,8 +18,8 @@ namespace astro::ros2 {
 
 inline constexpr std::size_t kCdrHeaderBytes = 4;
 
-/// Of a frame or a joint, in characters; ROS limits the names of topics to the same. A message may come from anybody, and
-/// whoever keeps the names of many of them must know how long they are.
+/// The longest name of a frame or a joint, in characters; ROS has about the same limit for names of topics. A message may
+/// come from anybody, so whoever keeps the names of many messages needs a limit.
 inline constexpr std::size_t kLongestName = 255;
 
 class CdrWriter {
@@ -52,7 +52,7 @@ class CdrReader {
   }
 
   bool ok() const { return ok_ && cursor_.ok(); }
-  /// The caller has seen what no such message has.
+  /// Makes ok() false, because the caller has seen something that no such message has.
   void refuse() { ok_ = false; }
   std::size_t left() const { return cursor_.left(); }
 

@@ -125,8 +125,8 @@ Bytes encode(const M& message) {
   return out.bytes();
 }
 
-/// Nothing if the bytes are too short for the type, or hold a string or a sequence that does not fit it. A message takes at most
-/// some ten times its bytes in memory.
+/// Nothing if the bytes are too short for the type, or hold a string or a sequence that does not fit it. In memory a message
+/// takes at most some ten times its bytes.
 template <Message M>
 std::optional<M> decode(ByteView bytes) {
   CdrReader in(bytes);

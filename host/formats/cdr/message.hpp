@@ -39,7 +39,7 @@ concept Message = requires {
   T::kFields;
 };
 
-/// string<=N: what is longer is no such message.
+/// string<=N. A message with a longer text is refused.
 template <std::size_t N>
 struct BoundedText {
   std::string text;

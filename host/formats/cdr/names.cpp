@@ -10,7 +10,7 @@
 namespace astro::ros2 {
 namespace {
 
-/// Of ASCII, whatever the locale.
+/// Whether it is a digit of ASCII, whatever the locale.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 

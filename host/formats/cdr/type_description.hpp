@@ -11,7 +11,8 @@
 
 #include "host/formats/cdr/message.hpp"
 
-/// What ROS 2 knows of a message type, from its list of fields: for its definition as text and for its hash.
+/// Describes a message type as ROS 2 does, from its list of fields. The type's definition as text and its hash follow from
+/// that.
 namespace astro::ros2 {
 
 /// As type_description_interfaces/msg/FieldType numbers them.
@@ -50,7 +51,7 @@ struct TypeDescription {
     FieldType type;
   };
   std::vector<Named> fields;
-  /// All messages in it, also in its messages, by name. Their own `referred` is empty.
+  /// All messages that it contains, directly or nested, by name. Their own `referred` is empty.
   std::map<std::string, TypeDescription> referred;
 };
 
@@ -138,7 +139,7 @@ const std::string& hash_of() {
 /// The name of a message type on the wire: "nav_msgs::msg::dds_::Odometry_" for "nav_msgs/msg/Odometry".
 std::string dds_type_name(std::string_view type);
 
-/// The other way round; nothing if it is no message type of ROS 2. The name may come from anybody.
+/// The reverse of dds_type_name(); nothing if it is no message type of ROS 2. The name may come from anybody.
 std::optional<std::string> ros_type_name(std::string_view dds_name);
 
 }  // namespace astro::ros2

@@ -61,7 +61,7 @@ class ChannelTopics {
  public:
   explicit ChannelTopics(TopicTable& topics) : topics_(topics) {}
 
-  /// Null as TopicTable::entry.
+  /// Null if TopicTable::entry() returns null.
   TopicTable::Entry* entry(const bag::mcap::Channel& channel, const bag::mcap::Schema* schema) {
     const std::string_view type = schema == nullptr ? std::string_view() : std::string_view(schema->name);
     if (entries_.size() <= channel.id) entries_.resize(std::size_t{channel.id} + 1);
@@ -137,7 +137,7 @@ class BagReader {
     const fs::path copy = scratch / "copy.db3";
     copy_file(file, copy);
     if (!killed) {
-      // SQLite would fill the last page of a cut file with zeros, and messages with them.
+      // SQLite would fill the last page of a cut file with zeros, which would also be in messages.
       fs::resize_file(copy, whole_pages);
       return read_db3({copy, part.name, part.stored_bytes}, topics_, report_);
     }

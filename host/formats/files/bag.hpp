@@ -43,7 +43,7 @@ struct BagMessage {
 struct BagHandlers {
   /// Which topics' messages are passed on; if it is empty, all are. Asked at least once for each topic.
   std::function<bool(const BagTopic&)> wants;
-  /// In the order of the file. If it is empty, messages are only counted.
+  /// Called in the order of the file. If it is empty, messages are only counted.
   std::function<void(const BagTopic&, const BagMessage&)> message;
 };
 

@@ -10,7 +10,7 @@ namespace astro::bag {
 
 enum class BagFileKind : std::uint8_t { none, database, mcap, zstd };
 
-/// What a file is by its first bytes; none if it cannot be read, too.
+/// What a file is by its first bytes; `none` also if it cannot be read.
 BagFileKind bag_file_kind(const std::filesystem::path& path);
 
 struct BagFiles {
@@ -18,10 +18,10 @@ struct BagFiles {
   std::vector<std::string> warnings;  // of files that metadata.yaml names and that are not there
 };
 
-/// The files of a bag in the order of their messages: of a folder those that its metadata.yaml names, otherwise all that
-/// look like parts of bags, by name with numbers in their order (bag_2 before bag_10); of a file, itself. Only the last
-/// part of a path in metadata.yaml counts: old bags name their folder before it, and no bag reaches out of its folder.
-/// Throws astro::Error naming the path if there is none.
+/// The files of a bag in the order of their messages. For a folder they are those that its metadata.yaml names, otherwise all
+/// that look like parts of bags, sorted by name with numbers in their order (bag_2 before bag_10). For a file it is the file
+/// itself. Only the last part of a path in metadata.yaml counts, because old bags name their folder before it, and because no
+/// bag may reach out of its folder. Throws astro::Error naming the path if there is none.
 BagFiles bag_files(const std::filesystem::path& path);
 
 }  // namespace astro::bag

@@ -18,7 +18,8 @@ constexpr std::uint64_t kRowBytes = std::uint64_t{1} << 20;    // of a row, beyo
 constexpr std::uint64_t kFreeBytes = std::uint64_t{24} << 20;  // of a message, beyond the size of the file
 constexpr int kOperationsPerCall = 10'000;  // of SQLite's virtual machine, until it asks whether to go on
 
-/// What SQLite may do with a file of that size. A row takes at least 6 bytes of it, and some 20 operations.
+/// Limits what SQLite may do with a file of a given size. Each row takes at least 6 bytes of the file and
+/// some 20 operations.
 struct Effort {
   std::uint64_t left = 0;
   static int ask(void* effort) {

@@ -114,7 +114,7 @@ class Db3Writer::Impl {
     Statement row(database_.get(), "INSERT INTO metadata(metadata_version,metadata) VALUES(5,?)");
     row.bind(1, std::string_view(text));
     if (row.step() != SQLITE_DONE) fail();
-    // The index after the rows: half the time of one that grows with them.
+    // The index is made after the rows, which takes half the time of one that grows with them.
     run("CREATE INDEX timestamp_idx ON messages (timestamp ASC);COMMIT");
     row.reset();
     std::error_code error;

@@ -7,7 +7,7 @@
 
 namespace astro {
 
-/// What is no image for this board. Values: the file; of not_intel_hex also the line.
+/// Why a file is no image for this board. Values: the file; of not_intel_hex also the line.
 enum class ImageProblem { unreadable, too_large, of_other_board, not_intel_hex };
 
 /// What flashing a file writes into a Teensy 4.0.

@@ -19,15 +19,15 @@ struct Record {
   bool is_too_large = false;  // needed, but larger than may be held; the content is empty
 };
 
-/// Walks over the records of a file and keeps the checksum of all that it has passed. One record is in memory at a
-/// time, and those that nobody needs not even once as a whole.
+/// Walks over the records of a file and computes the checksum of all that it has passed. It holds one record in memory at a
+/// time. Records that nobody needs are never held as a whole.
 class RecordStream {
  public:
   /// Precondition: the file has at least kMagicBytes. `most_bytes`: of a record that is held.
   RecordStream(ByteSource& file, std::uint64_t most_bytes);
 
-  /// False if there is no whole record any more; `record.start` says where. Opcode 0 does not exist; a file system
-  /// leaves zeros where a power cut prevented the writing of bytes.
+  /// False if there is no whole record any more; `record.start` says where. Opcode 0 also counts as the end: the format has
+  /// no such record, but a file system leaves zeros where a power cut prevented the writing of bytes.
   bool next(Record& record);
 
   std::uint64_t at() const { return at_; }                         // of the next record

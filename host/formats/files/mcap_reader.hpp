@@ -25,13 +25,13 @@ struct McapHandlers {
 struct McapLimits {
   /// The size of the file from which this one was unpacked, if it was.
   std::optional<std::uint64_t> packed_bytes;
-  /// Of one record or expanded chunk, or the size of the file if that is more. Usual chunks have 1 to 4 MiB.
+  /// Limit for one record or expanded chunk; the size of the file if that is more. Usual chunks have 1 to 4 MiB.
   std::uint64_t chunk_bytes = std::uint64_t{32} << 20;
-  /// Of all expanded chunks: this plus `most_gain` times the size of the file. Drives compress by a factor of
+  /// Limit for all expanded chunks together: this plus `most_gain` times the size of the file. Drives compress by a factor of
   /// 5 to 50.
   std::uint64_t all_chunks_bytes = std::uint64_t{64} << 20;
   std::uint64_t most_gain = 256;
-  /// Of all schemas and channels: this plus the size of the file.
+  /// Limit for all schemas and channels together: this plus the size of the file.
   std::uint64_t definition_bytes = std::uint64_t{16} << 20;
 };
 

@@ -7,7 +7,8 @@
 namespace astro::bag {
 namespace {
 
-/// A robot has some hundred topics. Who inspects a bag holds five copies of each name.
+/// A robot has some hundred topics. The names are limited, too, because whoever inspects a bag holds five
+/// copies of each.
 constexpr std::size_t kMostTopics = 10'000, kMostNameBytes = std::size_t{2} << 20;
 
 constexpr std::int64_t kLastTime_ns = (std::int64_t{1} << 62) - 1;
@@ -39,7 +40,7 @@ bool TopicTable::take(Entry& entry, std::int64_t log_time_ns, ByteView data, Exp
   topic.last_ns = topic.messages == 0 ? log_time_ns : std::max(topic.last_ns, log_time_ns);
   ++topic.messages;
   if (!entry.wanted) return true;
-  // CDR begins with a zero, so no message that is not compressed is mistaken for one that is.
+  // CDR begins with a zero, so an uncompressed message is never mistaken for a compressed one.
   if (!begins_like_zstd(data)) {
     handlers_.message(topic, {log_time_ns, data});
     return true;

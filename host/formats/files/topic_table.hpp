@@ -7,8 +7,8 @@
 
 namespace astro::bag {
 
-/// What the readers of both storages feed: counts the messages of each topic, expands those that were compressed one
-/// by one, and passes the wanted ones on.
+/// Takes the messages from the readers of both storages. It counts the messages of each topic, expands those that were
+/// compressed one by one, and passes the wanted ones on.
 class TopicTable {
  public:
   struct Entry {
@@ -22,7 +22,7 @@ class TopicTable {
   /// more characters in all, than any robot has.
   Entry* entry(std::string_view name, std::string_view type, std::string_view encoding);
 
-  /// What compressed messages may expand to: one of them, and all of a file.
+  /// The sizes to which one compressed message, and all messages of a file, may expand.
   struct ExpansionLimit {
     std::uint64_t one_bytes = 0, all_bytes = 0;  // all_bytes becomes less with each message
   };

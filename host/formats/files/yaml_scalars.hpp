@@ -17,9 +17,9 @@ struct YamlScalar {
   bool quoted = false;  // a text, whatever it looks like
 };
 
-/// All scalars of YAML text in their order. Anchors are read where they stand and aliases are left out, so that text
-/// cannot multiply itself. Throws astro::Error naming `name` and the line for text that is no YAML, nests deeper
-/// than 64 levels, or would take more than 16 MiB; keep the text below 1 MiB.
+/// All scalars of YAML text in their order. Anchors are read where they are defined, and aliases are left out, so that a
+/// short text cannot expand without limit. Throws astro::Error naming `name` and the line for text that is no YAML, nests
+/// deeper than 64 levels, or would take more than 16 MiB; keep the text below 1 MiB.
 std::vector<YamlScalar> yaml_scalars(std::string_view text, std::string_view name);
 
 }  // namespace astro::bag

@@ -7,7 +7,7 @@
 /// The parameters of a node, and the services by which it shows and changes them: rcl_interfaces.
 namespace astro::ros2::msg {
 
-/// Of the values the one that `type` names counts.
+/// Only the value that `type` names counts.
 struct ParameterValue {
   std::uint8_t type = 0;
   bool bool_value = false;

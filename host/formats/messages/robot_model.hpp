@@ -18,7 +18,7 @@ struct RobotModel {
   static constexpr const char* kRightJoint = "right_wheel_joint";
 
   RobotModel() = default;
-  /// Of the robot's parameters by name; sizes that are missing or not finite are 0.
+  /// From the robot's parameters by name. Sizes that are missing or not finite are 0.
   explicit RobotModel(const std::map<std::string, double>& parameters);
 
   bool complete() const { return radius_m > 0 && separation_m > 0 && radians_per_count > 0; }
@@ -27,7 +27,7 @@ struct RobotModel {
   /// base is fixed; "" or the base itself: none. Precondition: complete().
   std::string urdf(const std::string& prefix = {}, const std::string& root = {}) const;
 
-  /// Of a wheel that has turned by so many counts, in the base's frame.
+  /// The pose of a wheel that has turned by so many counts, in the base's frame.
   msg::Transform left_wheel(double counts) const { return wheel(separation_m / 2, counts); }
   msg::Transform right_wheel(double counts) const { return wheel(-separation_m / 2, counts); }
 

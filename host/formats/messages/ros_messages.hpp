@@ -6,7 +6,7 @@
 #include "host/formats/cdr/type_description.hpp"
 #include "host/formats/messages/geometry.hpp"
 
-/// What recordings say of a message type, and how a planar pose stands in a message: z = 0, orientation (0, 0, sin(theta/2),
+/// What recordings state of a message type, and how a message holds a planar pose: z = 0, orientation (0, 0, sin(theta/2),
 /// cos(theta/2)).
 namespace astro::ros2 {
 
@@ -28,7 +28,7 @@ const RosType& pose_stamped_type();  // geometry_msgs/msg/PoseStamped
 inline constexpr std::string_view kOdomFrame = "odom", kFootprintFrame = "base_footprint",
                                   kBaseFrame = "base_link", kTruthFrame = "truth";
 
-/// On the floor, with this heading; NaN makes an orientation of NaNs.
+/// A pose on the floor with this heading. If the heading is NaN, so is the orientation.
 msg::Pose planar_pose(double x_m, double y_m, double theta_rad);
 /// The rotation about z, in (-pi, pi].
 double heading_of(const msg::Quaternion& orientation);

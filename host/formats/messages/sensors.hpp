@@ -6,7 +6,7 @@
 
 namespace astro::ros2::msg {
 
-/// Lists of one length, or empty.
+/// Each list has the length of `name`, or is empty.
 struct JointState {
   Header header;
   std::vector<std::string> name;

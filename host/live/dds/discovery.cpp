@@ -66,7 +66,7 @@ Discovery discovery_from(const DiscoveryWishes& wishes,
   if (const std::string text = variable("ROS_AUTOMATIC_DISCOVERY_RANGE"); !text.empty())
     discovery.range = range_named(text);
   else if (variable("ROS_LOCALHOST_ONLY") == "0")
-    discovery.range = Range::subnet;  // somebody asked for it, in the words of ROS 2 Humble
+    discovery.range = Range::subnet;  // somebody asked for it, as in ROS 2 Humble
   const bool only_here = only_localhost(variable("ROS_LOCALHOST_ONLY"));
   if (only_here) discovery.range = Range::localhost;
   discovery.range = wishes.range.value_or(discovery.range);

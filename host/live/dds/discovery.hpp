@@ -21,22 +21,22 @@ enum class Range {
 struct Discovery {
   int domain = 0;
   Range range = Range::localhost;
-  /// Hosts that are asked as well, whatever the range: names or IPv4 addresses. With any of them this computer hears all of its
-  /// networks.
+  /// Further hosts on which others are looked for, unless the range is off: names or IPv4 addresses. If there are any,
+  /// datagrams of all networks of this computer are accepted.
   std::vector<std::string> peers{};
 };
 
 inline constexpr int kMostDomains = 232;  // the ports of a higher one would pass 65535
 
-/// What somebody asks for; what is not asked for is taken from the environment.
+/// Explicit choices. What has no value here is taken from the environment.
 struct DiscoveryWishes {
   std::optional<int> domain;
   std::optional<Range> range;
 };
 
-/// As ROS 2 reads ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and ROS_LOCALHOST_ONLY, of which the last one
-/// wins: with it there are no peers either. But where nothing is said, the range is this computer. A wish wins over all of
-/// them. `variable` returns "" for one that is not set.
+/// Reads ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and ROS_LOCALHOST_ONLY as ROS 2 does. The last one
+/// overrides the range, and then there are no peers either. Unlike in ROS 2, the default range is this computer. A wish
+/// overrides all variables. `variable` returns "" for a variable that is not set.
 ///
 /// Throws astro::Error naming the variable for a value that ROS 2 does not know.
 /// Source  rcl: init.c, discovery_options.c.

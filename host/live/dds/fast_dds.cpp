@@ -25,10 +25,10 @@ namespace {
 
 // With the default of 3 s every other start finds its peers only after 2 s.
 constexpr double kAnnouncementPeriod_s = 0.2;
-// At first more often: others answer the first one that they get.
+// At first announcements are more frequent, because others answer the first one that they receive.
 constexpr std::uint32_t kFirstAnnouncements = 10;
 constexpr double kFirstAnnouncementPeriod_s = 0.01;
-// How long others keep one that has died; the default is 20 s.
+// How long others keep a participant that has died; the default is 20 s.
 constexpr double kLease_s = 5;
 constexpr std::uint32_t kMulticastPort = 7400, kPortsPerDomain = 250;
 constexpr const char* kMulticastAddress = "239.255.0.1";  // these three are DDSI-RTPS's defaults
@@ -55,8 +55,9 @@ std::vector<rtps::Locator_t> locators_of_peers(const std::vector<std::string>& p
   return locators;
 }
 
-/// Where we can be reached without multicast, which a list that is not empty replaces. Loopback besides all interfaces, of which
-/// it is none: a peer that keeps to it does not send to the addresses of others.
+/// Lists the addresses where we can be reached; a list that is not empty replaces multicast. Loopback is added to "all
+/// interfaces", which does not include it, because a peer that uses only loopback does not send to the addresses of
+/// interfaces.
 void listen_without_multicast(fast::WireProtocolConfigQos& wire) {
   for (const rtps::Locator_t& locator : {rtps::Locator_t(), locator_of(kLoopback, 0)}) {
     wire.builtin.metatrafficUnicastLocatorList.push_back(locator);
@@ -64,7 +65,7 @@ void listen_without_multicast(fast::WireProtocolConfigQos& wire) {
   }
 }
 
-/// Where others are looked for. Multicast has to be named if anything is.
+/// The addresses where others are looked for. If the list is not empty, multicast has to be in it, too.
 rtps::LocatorList_t places_of(const Discovery& discovery) {
   rtps::LocatorList_t places;
   if (discovery.range == Range::localhost) places.push_back(locator_of(kLoopback, 0));
@@ -90,7 +91,7 @@ fast::DomainParticipantQos participant_settings(const Discovery& discovery, cons
   fast::DomainParticipantQos qos;
   qos.name(name.c_str());
   const bool here_alone = discovery.range != Range::subnet && discovery.peers.empty();
-  // The transports that are built in have shared memory, which would leave files behind when a program dies.
+  // The built-in transports include shared memory, which would leave files behind when a program dies.
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports.push_back(gated_udp(here_alone, std::move(gate), std::move(acknowledged)));
   rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
@@ -104,7 +105,7 @@ fast::DomainParticipantQos participant_settings(const Discovery& discovery, cons
 
 constexpr std::ptrdiff_t kGuidPrefixBytes = 12;  // the same for all endpoints of a participant
 
-/// Of Fast DDS, with one type for each topic.
+/// A participant of Fast DDS, which has one type for each topic.
 class OneParticipant {
  public:
   OneParticipant(const Discovery& discovery, const std::string& name, const std::string& user_data,
@@ -184,7 +185,7 @@ class FastParticipant : public Participant {
     if (participants_.size() == 1) guid_ = participants_.front().guid();
     return participants_.back();
   }
-  /// Several participants of ours find one another.
+  /// Whether an endpoint is ours: several participants of ours also find one another.
   bool is_own(const Guid& endpoint) const {
     return std::ranges::any_of(participants_, [&](const OneParticipant& one) {
       return std::equal(endpoint.bytes.begin(), endpoint.bytes.begin() + kGuidPrefixBytes,
@@ -205,7 +206,7 @@ class FastParticipant : public Participant {
   Guid guid_;
 };
 
-/// Fast DDS prints to standard output, which belongs to the program's own words.
+/// Fast DDS prints to standard output by default, where only the program's own output belongs.
 void log_to_standard_error() {
   fast::Log::ClearConsumers();
   fast::Log::RegisterConsumer(std::make_unique<fast::StdoutErrConsumer>());

@@ -10,7 +10,7 @@
 namespace astro::dds {
 namespace {
 
-// A sample that a reader missed, because it had not yet found the writer, comes again after this time; the default is 3 s.
+// A sample that a reader missed, because it had not yet found the writer, is sent again after this time; the default is 3 s.
 constexpr double kHeartbeatPeriod_s = 0.1;
 
 template <class FastQos>
@@ -68,14 +68,14 @@ void FastWriter::on_publication_matched(fast::DataWriter* writer,
   else
     acknowledged_.forget(first);
   if (other.is_on_same_process_as(writer->guid()))
-    acknowledged_.note(first);  // it gets them without the wire
+    acknowledged_.note(first);  // it gets samples without the network
   readers_.note(first.reader, status.current_count_change);
 }
 
 FastReader::FastReader(fast::Subscriber& subscriber, fast::Topic* topic, const Topic& wanted, Bell& bell)
     : subscriber_(subscriber), bell_(bell) {
   fast::DataReaderQos qos = with(fast::DATAREADER_QOS_DEFAULT, wanted);
-  // What a stranger has blown up is given back when it has been taken.
+  // Memory that a stranger's large sample takes is released when the sample has been taken.
   qos.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
   const fast::StatusMask mask = fast::StatusMask::subscription_matched()
                                 << fast::StatusMask::data_available();

@@ -32,7 +32,7 @@ class Matched {
   std::vector<Guid> all() const {
     return those([](const Guid&, std::chrono::steady_clock::duration) { return true; });
   }
-  /// `chosen` takes who it is and how long it has been there.
+  /// The endpoints for which `chosen` returns true. It is called with each endpoint and the time since it was found.
   template <class Chosen>
   std::vector<Guid> those(Chosen chosen) const {
     const std::lock_guard lock(mutex_);
@@ -72,9 +72,9 @@ class Bell {
 
 /// Throws astro::Error if Fast DDS refuses it. `acknowledged` must outlive it.
 ///
-/// A reader counts from when it has acknowledged a heartbeat: a volatile reader of CycloneDDS takes all that the first heartbeat
-/// names for older than itself, and never asks for it. One that acknowledges nothing, because it is not reliable, counts after
-/// half a second.
+/// A reader is certain once it has acknowledged a heartbeat: a volatile reader of CycloneDDS regards all samples that the
+/// first heartbeat names as older than itself, and never requests them. A reader that is not reliable acknowledges nothing,
+/// so every reader is certain after half a second.
 class FastWriter : public Writer, fast::DataWriterListener {
  public:
   FastWriter(fast::Publisher& publisher, fast::Topic* topic, const Topic& wanted,

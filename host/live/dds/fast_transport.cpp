@@ -53,18 +53,19 @@ class GatedTransport : public transport::ChainingTransport {
     const auto changed = for_fast_dds(sound, counts_);
     const ByteView read = changed ? ByteView(*changed) : sound;
     receiver->OnDataReceived(read.data(), static_cast<std::uint32_t>(read.size()), here, there);
-    // Only now: Fast DDS has answered the acknowledgement when somebody writes because of it.
+    // This comes last, so that Fast DDS has answered the acknowledgement before anybody writes because of it.
     for (const Acknowledgement& each : acknowledgements_in(sound)) descriptor_.acknowledged->note(each);
   }
   bool is_locator_allowed(const rtps::Locator_t& locator) const override {
     return may_talk_to(locator) && ChainingTransport::is_locator_allowed(locator);
   }
   bool transform_remote_locator(const rtps::Locator_t& there, rtps::Locator_t& result) const override {
-    // While the gate is shut, the addresses are those of our own settings, among them the group in which all announce themselves.
+    // While the gate is shut, all addresses come from our own settings. One of them is the multicast group of the
+    // announcements.
     const bool is_refused = descriptor_.gate->is_open() && rtps::IPLocator::isMulticast(there);
     return !is_refused && may_talk_to(there) && ChainingTransport::transform_remote_locator(there, result);
   }
-  /// Others announce what they like, and Fast DDS 2.9 aborts here for an address of another kind.
+  /// Anybody can announce an address of another kind, for which Fast DDS 2.9 would abort here.
   bool is_local_locator(const rtps::Locator_t& locator) const override {
     return IsLocatorSupported(locator) && ChainingTransport::is_local_locator(locator);
   }

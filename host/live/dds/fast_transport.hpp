@@ -11,7 +11,7 @@
 
 namespace astro::dds {
 
-/// Until it is opened, what is sent or comes is dropped.
+/// Until the gate is opened, everything that is sent or received is dropped.
 class Gate {
  public:
   void open() { open_ = true; }
@@ -21,8 +21,8 @@ class Gate {
   std::atomic<bool> open_ = false;
 };
 
-/// Which readers of others have acknowledged anything of which of our writers: of those that are expected, so that strangers
-/// cannot fill it. Threads of Fast DDS note it, and others ask.
+/// Which readers of others have acknowledged anything to which of our writers. Only expected pairs are noted, so that
+/// strangers cannot fill the memory. Threads of Fast DDS note them, and other threads ask.
 class AcknowledgedBy {
  public:
   void expect(const Acknowledgement& which) {
@@ -48,15 +48,16 @@ class AcknowledgedBy {
   std::map<Acknowledgement, bool> noted_;
 };
 
-/// UDP over IPv4. Nothing is sent or read before the gate opens, and of what comes Fast DDS reads what is sound
+/// UDP over IPv4. Nothing is sent or read before the gate opens. Fast DDS gets only the sound part of each datagram
 /// (`rtps_check.hpp`), changed where it would not understand it (`rtps_compatibility.hpp`).
 ///
-/// To others it sends by unicast alone: after the gate has opened, no multicast address of theirs is taken. Fast DDS 2.9 sends to
-/// such an address as soon as two readers share one, as all of CycloneDDS do, and ends the program if it has not opened it.
+/// It sends to others only by unicast: after the gate has opened, multicast addresses that they announce are refused. Fast
+/// DDS 2.9 would send to such an address as soon as two readers share it, as all readers of CycloneDDS do, and would end the
+/// program if it has not opened that address.
 ///
 /// Fast DDS 2.9 announces a participant and only then begins to receive. On this computer the answer comes within a fraction
-/// of a millisecond and would be lost, and CycloneDDS answers a second time only after 1 s. With the gate shut until the
-/// participant has been made, it is the announcement after it that is answered.
+/// of a millisecond and would be lost, and CycloneDDS answers a second time only after 1 s. So the gate stays shut until the
+/// participant has been made, and others answer an announcement that comes later.
 ///
 /// `here_alone`: datagrams of other computers are dropped unread, and none is sent to them. The sockets are bound to all
 /// interfaces all the same, because a CycloneDDS that uses a network card, as it does by default, sends nothing to 127.0.0.1.

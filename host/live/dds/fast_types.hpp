@@ -10,7 +10,7 @@
 
 #include "host/live/dds/participant.hpp"
 
-/// Our words in those of Fast DDS.
+/// Converts between our types and those of Fast DDS.
 namespace astro::dds {
 
 namespace fast = eprosima::fastdds::dds;
@@ -24,14 +24,14 @@ SampleId to_sample_id(const rtps::SampleIdentity& from);
 rtps::SampleIdentity from_sample_id(const SampleId& from);
 std::vector<rtps::octet> octets(const std::string& text);
 
-/// What Fast DDS hands through: bytes on their way out or in.
+/// What Fast DDS passes on as a sample: bytes that are sent, or bytes that were received.
 struct Payload {
   ByteView out;
   Bytes in;
 };
 
-/// A type of which Fast DDS knows the name alone. Without type information, because newer versions compare it. A sample of more
-/// than kLargestSample is not handed out.
+/// A type of which Fast DDS knows only the name. It has no type information, because newer versions of Fast DDS compare that.
+/// A sample of more than kLargestSample is not handed out.
 class OpaqueType : public fast::TopicDataType {
  public:
   explicit OpaqueType(const std::string& name);

@@ -12,11 +12,11 @@
 
 #include "host/base/bytes.hpp"
 
-/// What a ROS 2 node needs of DDS: writers and readers of opaque payloads, and who else is there. Payloads are CDR with their
-/// encapsulation header (host/formats/cdr). One thread uses all of it; what the network brings waits until it is taken.
+/// What a ROS 2 node needs from DDS: writers and readers of opaque payloads, and who else is there. Payloads are CDR with
+/// their encapsulation header (host/formats/cdr). One thread uses all of it; what the network brings waits until it is taken.
 namespace astro::dds {
 
-/// Of an endpoint or a participant, as DDSI-RTPS numbers them: 12 bytes of the participant, 4 of the entity.
+/// The identifier of an endpoint or a participant, as DDSI-RTPS numbers them: 12 bytes of the participant, 4 of the entity.
 struct Guid {
   std::array<std::uint8_t, 16> bytes{};
 
@@ -46,7 +46,7 @@ struct Topic {
 struct Sample {
   Bytes payload;
   SampleId id;
-  std::optional<SampleId> related;  // with which the writer sent it
+  std::optional<SampleId> related;  // what the writer says that it answers
 };
 
 /// A writer or a reader of somebody else, as it has announced itself.
@@ -68,8 +68,8 @@ class Writer {
   virtual Guid guid() const = 0;
   /// Those that read this topic. They come and go by themselves.
   virtual std::vector<Guid> readers() const = 0;
-  /// Those of them that are known to have found this writer, or have had the time to: what is written now reaches them. Of a
-  /// reader with best effort only the time shows it.
+  /// Those of them that are known to have found this writer, or have had the time to, so that what is written now reaches
+  /// them. For a reader with best effort only the time decides.
   virtual std::vector<Guid> certain_readers() const { return readers(); }
 
  private:
@@ -80,7 +80,7 @@ class Reader {
  public:
   virtual ~Reader() = default;
 
-  /// So that a writer that never pauses does not keep its reader.
+  /// The most samples of one take(), so that a writer that never pauses does not block its reader.
   static constexpr std::size_t kMostAtOnce = 1000;
 
   /// What has come since the last call, oldest first. If more than kMostAtOnce has come, wait() does not wait for the rest.
@@ -100,9 +100,9 @@ class Participant {
   virtual std::unique_ptr<Reader> create_reader(const Topic& topic) = 0;
 
   virtual Guid guid() const = 0;
-  /// Of others, that are known now, of whatever topic. It takes a moment after the start until they are.
+  /// The endpoints of others that are known now, of any topic. It takes a moment after the start until they are known.
   virtual std::vector<RemoteEndpoint> remote_endpoints() const = 0;
-  /// Of an endpoint of somebody else; "" if it is not known, or shows none or more than anybody means to.
+  /// The user data of somebody else's endpoint; "" if the endpoint is not known, or shows no user data or implausibly much.
   virtual std::string user_data_of(const Guid& endpoint) const = 0;
   /// Waits until a sample has come to any reader, or until the time is over.
   virtual void wait(std::chrono::microseconds timeout) = 0;

@@ -2,7 +2,7 @@
 
 #include "host/base/bytes.hpp"
 
-/// Datagrams of strangers, judged before Fast DDS reads them: it ends the program for some that are malformed.
+/// Checks strangers' datagrams before Fast DDS reads them, because it ends the program for some malformed ones.
 namespace astro::dds {
 
 /// The largest sample that may come in fragments, since memory is set aside for all of it with the first one.

@@ -14,7 +14,7 @@ bool is_a(const Submessage& submessage, Kind kind) {
   return submessage.id == static_cast<std::uint8_t>(kind);
 }
 
-/// Whom what follows in a datagram comes from, and whom it is for; empty if that was not said.
+/// Source and destination of the following submessages of a datagram; empty if they are not stated.
 struct Route {
   ByteView from, to;
 };
@@ -37,14 +37,14 @@ Guid guid_of(ByteView prefix, ByteView entity) {
   return guid;
 }
 
-/// What an acknowledgement says, and where in its body.
+/// The fields of an acknowledgement, and the offsets of two of them in its body.
 struct Acknowledged {
   ByteView reader, writer;
   std::int64_t first = 0;
   std::size_t low_word_of_first = 0, count_at = 0;
   std::uint32_t bits = 0, count = 0;
 
-  /// That the reader has found the writer and not yet heard of it: in the words of Fast DDS, and of CycloneDDS.
+  /// Whether the reader has found the writer and received nothing yet, as Fast DDS or CycloneDDS says it.
   bool is_first() const { return bits == 0 && (first == 0 || (first == 1 && count == 0)); }
   Acknowledgement on(const Route& route) const {
     return {guid_of(route.from, reader), guid_of(route.to, writer)};

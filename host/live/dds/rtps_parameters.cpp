@@ -67,7 +67,7 @@ constexpr Parameter kParameters[] = {
     {0x0083, 24},                        // related sample's identity
     {0x1001, kWord, Value::token},       // identity
     {0x1002, kWord, Value::token},       // permissions
-    {0x800f, 24},                        // the same in the words of eProsima
+    {0x800f, 24},                        // the same as eProsima numbers it
 };
 static_assert(std::is_sorted(std::begin(kParameters), std::end(kParameters),
                              [](const Parameter& a, const Parameter& b) { return a.id < b.id; }));

@@ -7,9 +7,9 @@
 
 namespace astro::dds {
 
-/// How many bytes the parameter list at the head of `bytes` takes, its sentinel included; nothing if it is malformed: it has no
-/// sentinel, a parameter ends outside `bytes` or where no parameter can begin, or one that the standard defines is too short
-/// for its value, or holds a text or sequence that ends outside it. Parameters of vendors are judged by their length alone.
+/// How many bytes the parameter list at the head of `bytes` takes, its sentinel included; nothing if it is malformed: it has
+/// no sentinel, a parameter ends outside `bytes` or where no parameter can begin, or one that the standard defines is too
+/// short for its value, or holds a text or sequence that ends outside it. Only the length is checked of vendors' parameters.
 ///
 /// Source  DDSI-RTPS 2.2, 9.4.2.11 and 9.6.2.2.
 std::optional<std::size_t> parameter_list_size(ByteView bytes, std::endian order);

@@ -22,7 +22,7 @@ bool has(std::uint8_t flags, int bit) { return (flags >> bit & 1) != 0; }
 
 bool is_number(std::int64_t number) { return number >= 1 && number <= kLargestNumber; }
 
-/// A fragment of one byte at least.
+/// Whether a fragment can have this number, since each fragment has at least one byte.
 bool is_fragment(std::uint32_t number) { return number >= 1 && number <= kLargestFragmentedSample; }
 
 /// Reads the bits of a set whose first number has been read.
@@ -33,7 +33,7 @@ bool read_bits(RtpsFields& fields) {
   return fields.ok();
 }
 
-/// Fast DDS begins with a set from 0, although the standard begins with 1.
+/// Also allows a set that begins at 0, which Fast DDS sends first, although the standard begins at 1.
 bool is_acknowledgement(RtpsFields fields) {
   fields.take(2 * kEntity);
   const std::int64_t first = fields.sequence_number();

@@ -37,14 +37,15 @@ struct Submessage {
   std::size_t begin, end;  // in the datagram, its header included
 };
 
-/// Nothing if none is there: it would reach beyond the datagram, or the next one begin where none can.
+/// Nothing if there is no valid one: it would reach beyond the datagram, or the next one would begin at an impossible offset.
 std::optional<Submessage> submessage_at(std::size_t begin, ByteView datagram);
 
-/// Whether the writer of a DATA tells of participants, writers or readers, with the built-in endpoints of the simple discovery
-/// protocol.
+/// Whether the writer of a DATA is one of the built-in endpoints by which the simple discovery protocol announces
+/// participants, writers and readers.
 bool is_of_discovery(ByteView writer);
 
-/// Whether the body has the fields of its kind, with values that the standard allows. One of no kind above is always sound.
+/// Whether the body has the fields of its kind, with values that the standard allows. A submessage of any other kind than
+/// those above is always sound.
 bool is_sound(std::uint8_t id, std::uint8_t flags, ByteView body);
 
 }  // namespace astro::dds

@@ -57,7 +57,7 @@ void ContinuousOdometry::set_pose(RobotSession& session, const Pose2& pose, cons
 void ContinuousOdometry::put(RobotSession& session, const protocol::SetPose& pose, double theta_rad,
                              const Symmetric3& covariance) {
   session.ask(pose);
-  track_.restart(theta_rad, covariance);  // whatever becomes of the link from here on
+  track_.restart(theta_rad, covariance);  // at once, because the next request may lose the link
   // A sample may be under way that is older than the answer.
   ignore_until_us_ = session.device_now_us();
 }
@@ -79,7 +79,8 @@ bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& 
   return true;
 }
 
-/// A robot that took the pose stands there, because it takes none while it moves and nobody has armed it since.
+/// If the robot has taken the pose, it still stands there, because it takes none while it moves and nobody has armed it
+/// since.
 void ContinuousOdometry::settle_unanswered() {
   constexpr double kThere_m = 1e-3, kThere_rad = 5e-3;  // flickering counts
   const auto put = std::exchange(unanswered_, std::nullopt);
@@ -90,8 +91,9 @@ void ContinuousOdometry::settle_unanswered() {
   event_ = "the pose was set";
 }
 
-/// The clock of a robot that has restarted is behind that of one that has not. It need not be if this computer slept meanwhile,
-/// whose clock then stood; but then the robot's counts and its pose are zero, and both were not.
+/// If the robot has restarted, its clock is behind the expected time. This test fails if this computer was suspended
+/// meanwhile, because its own clock then stood still. So it also counts as a restart if counts and pose are all zero and were
+/// not before.
 bool ContinuousOdometry::has_restarted(RobotSession& session, const protocol::Telemetry& telemetry) const {
   constexpr double kSlowest = 0.999,
                    kLate_s = 0.5;  // ten times worse than a poor crystal; a sample that waited

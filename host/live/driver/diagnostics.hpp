@@ -11,10 +11,10 @@
 
 namespace astro::live {
 
-/// What a fault means and what to check; "" for one that is not known.
+/// What a fault means and what to check; "" if the fault is not known.
 using FaultHelp = std::function<std::string_view(Fault)>;
 
-/// What /diagnostics tells of.
+/// The state that /diagnostics reports.
 struct DriverState {
   std::int64_t time_ns = 0;  // since 1970
   microseconds now{};        // on the steady clock
@@ -35,13 +35,13 @@ struct DriverState {
   std::string_view velocities_ignored;  // why; "" if they drive the robot
   std::string odometry_event;
   std::optional<ContinuousOdometry::RefusedPose> refused_pose;
-  bool other_factors = false;  // the robot holds others than those whose covariance is published
+  bool other_factors = false;  // the robot's wheel factors are not those of the published covariance
 };
 
 /// Three statuses: the robot, its link, and the commands of others.
 ros2::msg::DiagnosticArray diagnostics(const DriverState& state, const FaultHelp& fault_help);
 
-/// Whether a person would be told something else: level or message of a status differs.
+/// Whether the level or the message of a status differs, so that a person would read something else.
 bool says_more(const ros2::msg::DiagnosticArray& now, const ros2::msg::DiagnosticArray& before);
 
 }  // namespace astro::live

@@ -16,10 +16,10 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-// While velocities drive the robot, none of them waits behind a sleep that is longer than a control tick. Otherwise only
-// services wait, and processor time counts more.
+// The longest sleep of a step. While the robot is armed it is one control tick, so that no velocity waits longer. Otherwise
+// only services wait, so a longer sleep saves processor time.
 constexpr microseconds kTick = milliseconds(1), kIdle = milliseconds(5);
-/// No step reads more of a table of parameters than this takes, because a stop waits for the step.
+/// The longest time for which a step reads parameters, because a stop has to wait for the end of the step.
 constexpr microseconds kShareOfTable = milliseconds(5);
 
 std::uint16_t period_ms(double rate_hz) {
@@ -54,7 +54,7 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
   use_sim_time(options_.use_sim_time);
 }
 
-/// All but one are what the node was made of.
+/// All but `use_sim_time` repeat the options and cannot be set.
 std::vector<OwnParameter> Driver::own_parameters() {
   return {
       {"odom_frame_id", "frame of odometry", to_parameter(names_.odom_frame())},
@@ -121,7 +121,8 @@ void Driver::begin(RobotSession& session) {
     options_.notice("the robot drove, and no program here drives it: it was stopped");
 }
 
-/// Reads some of the parameters that are not known, or that somebody wants to know anew. False if there was nothing to read.
+/// Reads some of the parameters that are not known yet or that somebody has asked for again. False if none is left to be
+/// read.
 bool Driver::read_on(RobotSession& session) {
   const microseconds most = driving_.armed() ? kTick : kShareOfTable;
   if (session.knows_parameters()) return parameters_.step(session, most);
@@ -162,14 +163,15 @@ void Driver::take(RobotSession& session, const protocol::Telemetry& telemetry) {
   newest_ = telemetry;
   if (!utc_.known() || !session.knows_parameters()) return;
   const auto at = session.client().clock().to_host(telemetry.device_time_us);
-  if (!at) return;  // no round trip has shown yet when that was
+  if (!at) return;  // no round trip has measured the clock offset yet
   const std::int64_t time_ns = std::min(utc_.utc_ns(at->us), utc_.now_ns());
   if (at->us * 1000 - battery_ns_ >= kSecond_ns) {
     battery_ns_ = at->us * 1000;
     publications_.battery_state.publish(battery(time_ns, 1e-3 * telemetry.battery.mv, names_), time_ns);
   }
-  // The clock's map is corrected with every round trip, and a stamp that goes back a little would be two poses at one time. A
-  // stamp that goes back far follows the system's clock, which was set back.
+  // Every round trip corrects the clock offset, so a stamp can be a little older than the one before. That sample is left
+  // out, because it would be a second pose for the same time. If a stamp is much older, the system's clock was set back, and
+  // the sample is published.
   const bool goes_back = time_ns <= published_ns_ && time_ns > published_ns_ - kSecond_ns / 10;
   if (odometry_.take(session, telemetry) && !goes_back) publish(telemetry, time_ns);
 }
@@ -259,14 +261,15 @@ void Driver::note_link(const std::string& sentence) {
 }
 
 void Driver::report() {
-  constexpr std::int64_t kBetweenLooks_ns = 20'000'000;  // a hundredth of the work, and nobody reads faster
+  constexpr std::int64_t kBetweenLooks_ns = 20'000'000;  // more often is no use: nobody reads faster
   const std::int64_t look_ns = utc_.steady().count() * 1000;
   if (look_ns - looked_ns_ < kBetweenLooks_ns) return;
   looked_ns_ = look_ns;
   const DriverState state = this->state();
   note_link(state.why_no_robot.empty() ? "connected to the robot at " + state.port : state.why_no_robot);
   ros2::msg::DiagnosticArray now = diagnostics(state, options_.fault_help);
-  // A sentence may hold a figure that changes all the time, as the age of a stamp.
+  // A message may hold a number that changes all the time, such as the age of a stamp. So a change is published after 0.2 s
+  // at the earliest.
   const std::int64_t since_ns = look_ns - reported_ns_;
   if (since_ns < kSecond_ns / 5 || (since_ns < kSecond_ns && !says_more(now, reported_))) return;
   reported_ns_ = look_ns;

@@ -22,29 +22,30 @@ struct DriverOptions {
   NameChoices names{};
   bool odom_tf = true;  // whether /tf has odom -> base_footprint, which another node may publish instead
   bool use_sim_time = false;  // whether stamps are the time of /clock
-  /// Of the robot, to be in force once it was found; names that it does not have are ignored.
+  /// Parameters of the robot, which are set once it was found. Names that the robot does not have are ignored.
   std::vector<ros2::msg::Parameter> robot_parameters{};
   double rate_hz = 50;  // of telemetry; up to 1000. The period is rounded to whole milliseconds.
   microseconds cmd_vel_timeout = std::chrono::milliseconds(500);
   bool velocities_after_stop = false;  // see Driving
   CommandType cmd_vel_type = CommandType::twist_stamped;
-  std::optional<calibration::OdometryErrors> errors;  // otherwise those of an uncalibrated robot
-  /// The factors that `errors` are those of: if the robot has others, /diagnostics say so.
+  std::optional<calibration::OdometryErrors> errors;  // none: those of an uncalibrated robot
+  /// The wheel factors that `errors` belongs to. If the robot has others, /diagnostics says so.
   std::optional<calibration::WheelFactors> calibrated;
   FaultHelp fault_help = [](Fault) { return std::string_view(); };
   std::function<std::string(const Error&)> words = [](const Error& error) {
     return std::string(error.what());
   };
-  /// Sentences about the link that are worth showing.
+  /// Called with sentences about the link that a person should see.
   std::function<void(const std::string&)> notice = [](const std::string&) {};
   HostClock clock = HostClock::of_system();
 };
 
-/// A robot as ROS 2 knows it (host/live/README.md), on any number of middlewares at once. It goes on while there is no
-/// robot, while the link is lost, and after the robot has restarted; it says so in /diagnostics and publishes no odometry meanwhile.
+/// Presents one robot as a ROS 2 node (host/live/README.md), on any number of middlewares at once. The driver goes on while
+/// there is no robot, while the link is lost, and after the robot has restarted; it says so in /diagnostics and publishes no
+/// odometry meanwhile.
 ///
-/// Threads  one: that which calls step(). A robot that falls silent keeps it for half a second, and for two within a commit of
-///          parameters. A slow line keeps it for a few requests, never for a table of parameters.
+/// Threads  one, which calls step(). A robot that falls silent blocks it for half a second, or for two seconds during a
+///          parameter commit. A slow line blocks it for a few requests, never for a whole parameter table.
 class Driver {
  public:
   /// The middlewares must outlive the driver, and be polled by nobody else.
@@ -55,12 +56,13 @@ class Driver {
   /// Answers what has come from others, and passes on what has come from the robot; waits up to `most` if there is nothing.
   void step(microseconds most = std::chrono::milliseconds(10));
 
-  /// Steps while `goes_on` says so. However that ends, a robot that was armed here is at rest and disarmed then. Throws what
-  /// `goes_on`, a middleware or end() throws: the first of them.
+  /// Calls step() while `goes_on` returns true, and then end(), also if something was thrown. Throws the first exception of
+  /// `goes_on`, a middleware or end().
   void run(const std::function<bool()>& goes_on);
 
-  /// Times of the robot's clock and of this computer's steady clock, in microseconds, as nanoseconds since 1970, as in the stamps of
-  /// what is published. Nothing while there is no robot, no round trip has shown yet when that was, or no simulation has told its time.
+  /// These convert times of the robot's clock and of this computer's steady clock, in microseconds, to nanoseconds since
+  /// 1970, as in the stamps of published messages. They return nothing while a simulation has to give the time and has not
+  /// done so yet; the first also returns nothing while there is no robot or no round trip has measured its clock offset.
   std::optional<std::int64_t> utc_of_robot_ns(std::int64_t device_time_us);
   std::optional<std::int64_t> utc_of_host_ns(std::int64_t steady_us) {
     return utc_.known() ? std::optional(utc_.utc_ns(steady_us)) : std::nullopt;
@@ -89,7 +91,7 @@ class Driver {
   DriverOptions options_;
   Names names_;
   UtcMap utc_;
-  microseconds polled_;  // when the middlewares were asked before: whatever they bring now has come since
+  microseconds polled_;  // when the middlewares were last polled: what they deliver now is newer
   RobotLink link_;
   Driving driving_;
   ContinuousOdometry odometry_;

@@ -18,8 +18,8 @@ bool all_finite(const ros2::msg::Vector3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// What a message to the robot can hold and no robot can do: faster commands keep their curvature, as the robot keeps it when
-/// it reduces a command to its limits.
+/// Limits a command to what a message can hold, which is faster than any robot. Both values are reduced by one factor, so
+/// that the curvature stays, as it does when the robot reduces a command to its limits.
 protocol::Velocity to_velocity(double v_mps, double omega_radps) {
   constexpr double kMostInMessage = 2000;
   const double share =
@@ -37,7 +37,7 @@ double number(RobotSession& session, const char* name, double otherwise) {
   return found == session.numbers().end() ? otherwise : found->second;
 }
 
-/// So often that the robot may miss three in a row.
+/// After this time a velocity is sent again, so that the robot may miss three in a row before its time-out.
 microseconds refresh_of(RobotSession& session) {
   constexpr double kSlowest_ms = 50;
   const double timeout_ms = number(session, "command_timeout", 0);
@@ -50,7 +50,7 @@ bool beyond_limits(RobotSession& session, const protocol::Velocity& velocity) {
          std::abs(1e-6 * velocity.omega_uradps) > number(session, "yaw_rate_limit", HUGE_VAL);
 }
 
-/// Whether the robot has come to rest soon enough that whoever waits does not wait in vain.
+/// Waits some 0.6 s at most for the robot to come to rest. False if it has not.
 bool comes_to_rest(RobotSession& session) {
   for (int i = 0; i < 12; ++i) {
     if (!protocol::gives_power(session.ask(protocol::GetStatus{}).mode)) return true;
@@ -59,8 +59,8 @@ bool comes_to_rest(RobotSession& session) {
   return false;
 }
 
-/// To the robot all programs that have driven through one port are one host, so it lets this one take over a path that another
-/// has left behind.
+/// The robot takes all programs that drive through one port for one host. So it would let this program take over a path that
+/// another one has left behind, which is refused here.
 void require_free(RobotSession& session, const protocol::Status& status) {
   const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
   if (!drives && status.queued_segments == 0) return;  // what is left of a paused path waits in the queue
@@ -112,7 +112,7 @@ VelocityCommand::Due VelocityCommand::due(microseconds now, microseconds refresh
 }
 
 std::string Driving::arm(RobotSession& session) {
-  // Also for the robot, which takes an Arm only of a host that can know of all stops.
+  // The robot needs this request, too: it accepts an Arm only from a host that can know of every stop.
   const protocol::Status status = session.ask(protocol::GetStatus{});
   if (!armed_) require_free(session, status);
   const std::uint32_t latched = session.ask(protocol::GetFaults{}).latched;
@@ -187,7 +187,7 @@ void Driving::send_rest(RobotSession& session, microseconds now) {
   if (!armed_) return;
   try {
     session.ask(protocol::Rest{});
-  } catch (const robot::RobotRefused& refused) {  // it is in other hands, or at rest with a fault
+  } catch (const robot::RobotRefused& refused) {  // another program has it, or it is at rest with a fault
     release();
     ignore(why_not(session, refused), now);
   }

@@ -14,7 +14,8 @@
 
 namespace astro::live {
 
-/// As which type velocities are taken where two types of one name are trouble (Middleware::types_may_share_a_name).
+/// The message types from which velocities are taken, on a middleware where the types of one topic name should not differ
+/// (Middleware::types_may_share_a_name).
 enum class CommandType { twist_stamped, twist, both };
 inline constexpr std::array<std::string_view, 3> kCommandTypeNames{"TwistStamped", "Twist", "both"};
 constexpr std::string_view name(CommandType type) {
@@ -25,7 +26,7 @@ constexpr std::string_view name(CommandType type) {
 struct Moment {
   microseconds steady{};
   std::int64_t utc_ns = 0;
-  microseconds waited{};  // at most: what has come may have waited so long until somebody took it
+  microseconds waited{};  // the longest time that a message may have waited until it was taken
 };
 
 /// The velocity that others command, by the rules of diff_drive_controller:
@@ -40,14 +41,15 @@ class VelocityCommand {
 
   explicit VelocityCommand(microseconds timeout) : timeout_(timeout) {}
 
-  /// Each returns why it refuses the velocity, and then has changed nothing.
+  /// Each returns nothing if it takes the velocity. If it refuses it, it returns why and changes nothing.
   std::optional<std::string> take(const ros2::msg::Twist& twist, const Moment& now);
   std::optional<std::string> take(const ros2::msg::TwistStamped& twist, const Moment& now);
   void clear() { held_.reset(); }
 
-  /// What the robot is to be told at this moment.
+  /// What has to be sent to the robot now.
   enum class Due { nothing, velocity, stop };
-  /// `velocity` for a new one, and again `refresh` after it was sent last; `stop` once, when it is over.
+  /// `velocity` if there is a new one, and again when `refresh` has passed since it was sent last; `stop` once, when it has
+  /// timed out.
   Due due(microseconds now, microseconds refresh);
   /// Precondition: due() said `velocity`.
   const protocol::Velocity& velocity() const { return held_->velocity; }
@@ -73,8 +75,9 @@ struct CommandCounts {
   bool reduced = false;                    // the last one that was sent is beyond the robot's limits
 };
 
-/// Drives the robot by the velocities that others command, once one of them has armed it through this node. Nothing arms by
-/// itself: a fault, a lost link, a restart, a stop or another program that stops the robot ends the permission.
+/// Drives the robot by the velocities that others command, once one of them has armed it through this node. A fault, a lost
+/// link, a restart, a stop, or another program that stops the robot ends that, and the robot has to be armed again (unless
+/// `velocities_after_stop` allows otherwise).
 class Driving {
  public:
   /// With `velocities_after_stop` the next velocity after stop() drives the robot again, unless somebody outside this node has
@@ -86,19 +89,19 @@ class Driving {
   /// Throws astro::Error for any other latched fault, and if another program drives.
   std::string arm(RobotSession& session);
   void disarm(RobotSession& session);
-  /// Ramps to rest, whoever drives; returns what was done. Then the robot moves for nobody until an arm, unless
-  /// `velocities_after_stop` holds and this node drives.
+  /// Ramps the robot to rest, whoever drives it; returns what was done. Then the robot does not move until it is armed again,
+  /// unless `velocities_after_stop` is set and this node drives.
   std::string stop(RobotSession& session);
-  /// Ramps to rest, and keeps what is left of a path. Until resume() or arm() velocities are ignored.
+  /// Ramps the robot to rest and keeps the rest of its path. Velocities are ignored until resume() or arm().
   void pause(RobotSession& session);
   void resume(RobotSession& session);
-  /// The robot is not armed for this node any more.
+  /// To be called when the robot is no longer armed for this node.
   void release();
   bool armed() const { return armed_; }
   /// Why velocities are ignored; "" if they drive the robot.
   std::string_view why_ignored() const;
 
-  /// A velocity has come: a Twist or a TwistStamped, as bytes.
+  /// Takes a velocity that has come, a Twist or a TwistStamped; nothing if its bytes could not be decoded.
   template <class Message>
   void take(const std::optional<Message>& message, const Moment& now) {
     ++counts_.received;
@@ -106,7 +109,8 @@ class Driving {
     if (refused) ignore(*refused, now.steady);
   }
 
-  /// Tells the robot what is due: a new velocity at once, the same one again before the robot's own time-out, Rest at the end.
+  /// Sends what is due: a new velocity at once, the same one again before the robot's own time-out, Rest when it has timed
+  /// out.
   void step(RobotSession& session, microseconds now);
 
   const CommandCounts& counts() const { return counts_; }
@@ -116,7 +120,7 @@ class Driving {
   void send_rest(RobotSession& session, microseconds now);
   void ignore(const std::string& why, microseconds now);
 
-  /// What keeps velocities from an armed robot.
+  /// Why velocities do not drive an armed robot.
   enum class Halt : std::uint8_t { none, stopped, paused };
 
   VelocityCommand command_;

@@ -22,13 +22,14 @@ std::int64_t UtcMap::utc_ns(std::int64_t steady_us) {
   return steady_us * 1000 + offset_ns_;
 }
 
-/// A program that is interrupted between both readings measures in vain, which does no harm.
+/// If the program is interrupted between the two readings, this returns true by mistake; the offset is then
+/// only measured once more.
 bool UtcMap::was_set(microseconds now) const {
   constexpr std::int64_t kStep_ns = 50'000'000;
   return std::abs(clock_.utc_ns() - now.count() * 1000 - offset_ns_) > kStep_ns;
 }
 
-/// Of a few readings the fastest one counts: whatever interrupts the program between two clocks only adds time.
+/// Uses the fastest of a few readings, because an interruption between the two clocks can only add time.
 void UtcMap::measure(microseconds now) {
   constexpr int kReadings = 5;
   microseconds best = microseconds::max();

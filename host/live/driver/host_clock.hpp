@@ -16,11 +16,12 @@ struct HostClock {
   static HostClock of_system();
 };
 
-/// Times of the steady clock as time since 1970. The offset between both is measured once a second, so that stamps follow the
-/// system's clock when it is slewed, and do not tremble with every reading; and at once when that clock was set.
+/// Converts times of the steady clock to time since 1970. The offset between the two clocks is measured once a second, so
+/// that stamps follow the system's clock when it is slewed but do not jitter with every reading. It is measured at once if
+/// the system's clock was set.
 ///
-/// Or, as nodes do whose `use_sim_time` is true, the time that a simulation told last, whatever the moment: how fast its time runs
-/// is not known.
+/// If it simulates, as nodes with a true `use_sim_time` do, it returns the last time that the simulation has published,
+/// whatever time is asked for, because it is not known how fast the simulation runs.
 class UtcMap {
  public:
   explicit UtcMap(HostClock clock) : clock_(std::move(clock)) {}
@@ -29,14 +30,14 @@ class UtcMap {
   std::int64_t now_ns() const { return simulated_ ? told_ns_ : clock_.utc_ns(); }
   microseconds steady() const { return clock_.steady(); }
 
-  /// Forgets what was told.
+  /// Also forgets the simulated time.
   void simulate(bool on) {
     simulated_ = on;
     told_ns_ = 0;
   }
   bool simulated() const { return simulated_; }
   void tell(std::int64_t simulated_ns) { told_ns_ = simulated_ns; }
-  /// Not before a simulation has told its time, which is 0 until then.
+  /// False while it simulates and the simulation has not published its time, which is 0 until then.
   bool known() const { return !simulated_ || told_ns_ != 0; }
 
  private:

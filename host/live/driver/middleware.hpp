@@ -12,7 +12,7 @@
 #include "host/formats/cdr/type_description.hpp"
 #include "host/live/driver/parameter_table.hpp"
 
-/// What carries a node's topics, services and parameters to others: DDS (host/live/ros2), or the WebSocket of a viewer
+/// Carries a node's topics, services and parameters to others: DDS (host/live/ros2), or the WebSocket of a viewer
 /// (host/live/foxglove). Payloads are CDR with their encapsulation header. One thread uses all of it, and callbacks run in
 /// that thread, inside poll().
 namespace astro::live {
@@ -43,7 +43,7 @@ struct ServiceDescription {
   std::string_view type;  // "std_srvs/srv/Trigger"
   MessageType request, response;
   bool urgent = false;                    // answered before all others that wait, whatever came first
-  std::function<bool()> may_answer = {};  // until then calls wait; none: always
+  std::function<bool()> may_answer = {};  // calls wait until it returns true; empty: they never wait
 };
 
 class Publisher {
@@ -53,17 +53,17 @@ class Publisher {
   Publisher& operator=(const Publisher&) = delete;
   virtual ~Publisher() = default;
 
-  /// Never waits for a subscriber. `time_ns`: since 1970, of what the message says.
+  /// Never waits for a subscriber. `time_ns`: the time of the message's content, since 1970.
   virtual void publish(ByteView message, std::int64_t time_ns) = 0;
-  /// Whether anybody would get it; so that nothing is computed for nobody.
+  /// Whether anybody would get a message, so that none is computed in vain.
   virtual bool has_subscribers() const = 0;
 };
 
 class Middleware {
  public:
-  /// What came of a topic. It must bear any bytes.
+  /// Called with each message of a topic. The message may be any bytes.
   using OnMessage = std::function<void(ByteView message)>;
-  /// The response; nothing if the bytes are no such request. It may take as long as it needs.
+  /// Returns the response; nothing if the bytes are not such a request. It may take as long as it needs.
   using OnRequest = std::function<std::optional<Bytes>(ByteView request)>;
 
   Middleware() = default;
@@ -73,9 +73,9 @@ class Middleware {
 
   /// The publisher must not outlive the middleware. Throws astro::Error if it is refused.
   virtual std::unique_ptr<Publisher> advertise(const TopicDescription& topic) = 0;
-  /// Until the middleware ends. One name may be subscribed under several types.
+  /// The subscription lasts until the middleware ends. One name may be subscribed under several types.
   virtual void subscribe(const TopicDescription& topic, OnMessage on_message) = 0;
-  /// Whether a name under several types troubles nobody. In ROS 2 it does: its tools neither record nor show such a topic.
+  /// Whether one topic name may have several types. In ROS 2 it should not: its tools neither record nor show such a topic.
   virtual bool types_may_share_a_name() const { return false; }
   virtual void serve(const ServiceDescription& service, OnRequest on_request) = 0;
   /// Lets others read and set parameters; `table` must outlive the middleware.

@@ -16,13 +16,13 @@ struct Renaming {
 
 /// How a node's names differ from the usual ones.
 struct NameChoices {
-  std::vector<Renaming> renamed = {};            // of several for one name the first counts
+  std::vector<Renaming> renamed = {};            // if two rename one name, the first counts
   std::string odom_frame = {}, base_frame = {};  // "": the usual ones; not put into the namespace
 };
 
-/// The names of a node's topics, services and frames. Those of topics that are relative ("odom") are in the node's namespace,
-/// those that are absolute ("/tf") are not. The frames of a node in a namespace begin with it, as those of
-/// diff_drive_controller do, so that several robots share one /tf: "left/odom".
+/// The names of a node's topics, services and frames. Relative topic names ("odom") are in the node's namespace, absolute
+/// ones ("/tf") are not. The frames of a node in a namespace begin with it, as those of diff_drive_controller do, so that
+/// several robots share one /tf: "left/odom".
 class Names {
  public:
   /// "", "left" or "/left/front".
@@ -42,7 +42,7 @@ class Names {
   std::string odom_frame() const {
     return choices_.odom_frame.empty() ? frame(ros2::kOdomFrame) : choices_.odom_frame;
   }
-  /// Of the robot, on the floor between its wheels, as odometry has it. It may be that of the base itself.
+  /// The robot's frame in odometry, on the floor between its wheels. It may be the base's own frame.
   std::string base_frame() const {
     return choices_.base_frame.empty() ? frame(ros2::kFootprintFrame) : choices_.base_frame;
   }

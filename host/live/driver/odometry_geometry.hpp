@@ -9,21 +9,21 @@
 
 namespace astro::live {
 
-/// What the robot's odometry makes of counts, from its parameters.
+/// How the robot's odometry converts counts, from the robot's parameters.
 struct OdometryGeometry {
   calibration::WheelFactors factors;
   double count_m = 0;                                       // nominal travel of a wheel for one count
   double observer_bandwidth_radps = 0;                      // of the observer of wheel speeds
   double fastest_mps = HUGE_VAL, fastest_radps = HUGE_VAL;  // the robot's limits
 
-  /// By name, as robot::RemoteParameters::numbers() gives them. Throws astro::Error if one is missing.
+  /// `parameters`: by name, as robot::RemoteParameters::numbers() returns them. Throws astro::Error if one is missing.
   static OdometryGeometry of(const std::map<std::string, double>& parameters);
 };
 
-/// Whether both are the same but for what the robot rounds them to.
+/// Whether both are the same up to the robot's rounding.
 bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b);
 
-/// The errors of a robot that nobody has calibrated: its wheels slip as those of the thesis's robot; c_R and c_L are each
+/// The errors of a robot that nobody has calibrated: its wheels slip like those of the thesis's robot; c_R and c_L are each
 /// known to 0.5 %, b to 1 % and e to 0.02.
 ///
 /// Source  the thesis's robot, uncalibrated: wheels differ by 0.416 %, wheelbase off by 0.479 %.

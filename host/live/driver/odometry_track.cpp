@@ -11,9 +11,10 @@ using calibration::Symmetric3;
 
 namespace {
 
-/// Between samples that follow one another the path is an arc, and a robot is where that arc ends, to less than this.
+/// The path between two consecutive samples is an arc. If a pose is further than this from the end of the arc, somebody has
+/// set it.
 constexpr double kJump_m = 0.02, kJump_rad = 0.05;
-constexpr double kGap_s = 0.25;       // after a longer one nobody knows the path
+constexpr double kGap_s = 0.25;       // after a longer gap the path is not known
 constexpr double kBeyondLimit = 1.5;  // a robot that overshoots its limits, or is pushed
 
 }  // namespace
@@ -58,12 +59,13 @@ bool OdometryTrack::follows(const recording::OdometrySample& sample, double righ
   return std::hypot(sample.x_m - expected.x_m, sample.y_m - expected.y_m) < kJump_m + possible_way_m(gap_s);
 }
 
-/// How far from where it was a robot can be after a gap; within a short one the arc says it.
+/// How far a robot can be from its last position after a gap; 0 after a short gap, in which it follows the arc.
 double OdometryTrack::possible_way_m(double gap_s) const {
   return gap_s > kGap_s ? kBeyondLimit * geometry_.fastest_mps * gap_s : 0;
 }
 
-/// The heading follows from the counts alone, whatever the path, but for what curvature does to the wheelbase.
+/// How far the heading can differ from that of the counts. Counts determine the heading whatever the path is, unless the
+/// wheelbase depends on the curvature (e is not 0).
 double OdometryTrack::possible_turn_rad(double gap_s) const {
   if (geometry_.factors.e == 0 || gap_s <= kGap_s) return 0;
   return kBeyondLimit * std::abs(geometry_.factors.e) * geometry_.fastest_radps * gap_s;

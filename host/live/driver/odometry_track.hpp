@@ -11,21 +11,22 @@ namespace astro::live {
 /// The robot's odometry as its telemetry shows it, and how uncertain it is (host/calibration/likelihood/pose_uncertainty.hpp).
 class OdometryTrack {
  public:
-  /// Without `errors` those of an uncalibrated robot.
+  /// Without `errors`, those of an uncalibrated robot are used.
   explicit OdometryTrack(std::optional<calibration::OdometryErrors> errors) : stated_errors_(errors) {}
 
-  /// The robot's parameters are known, or have changed. The pose and its covariance stay.
+  /// To be called when the robot's parameters become known or change. The pose and its covariance stay.
   void set_geometry(const OdometryGeometry& geometry);
 
-  /// The robot's pose was set to this heading, and its counts may begin again at any number: what comes next is as uncertain
-  /// as `start`.
+  /// To be called when the robot's pose was set: to this heading, with the covariance `start`. The robot's counts may begin
+  /// again at any number.
   void restart(double heading_rad, const calibration::Symmetric3& start);
 
-  /// The next sample. False if its pose is not where the wheels have gone: somebody else has set it. Its covariance then
-  /// begins at zero. Precondition: set_geometry() was called.
+  /// Takes the next sample. False if its pose does not follow from the wheel travel, so that somebody else must have set it.
+  /// The covariance then begins at zero. Precondition: set_geometry() was called.
   bool take(const recording::OdometrySample& sample);
 
-  /// Of (x, y, theta) of the newest sample: m, rad. Never less than what a count of each wheel is worth.
+  /// The covariance of the newest sample's (x, y, theta), in m and rad. It includes the rounding of the wheel travel to whole
+  /// counts.
   calibration::Symmetric3 covariance() const;
 
   bool knows_geometry() const { return uncertainty_.has_value(); }

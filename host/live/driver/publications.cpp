@@ -33,7 +33,8 @@ Matrix6 in_space(const calibration::Symmetric3& p) {
   return matrix;
 }
 
-/// The robot does not drive sideways; tyres slip sideways no less than along.
+/// The robot does not drive sideways. Its tyres slip sideways no less than along, so the sideways speed has
+/// the same variance.
 Matrix6 in_space(const TwistCovariance& twist) {
   Matrix6 matrix = unmeasured_space();
   put_symmetric(matrix, kX, kX, twist.vv);

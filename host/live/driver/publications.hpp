@@ -21,8 +21,8 @@
 #include "host/recording/run.hpp"
 #include "host/robot/client/client.hpp"
 
-/// What the driver publishes: messages out of what the robot measured in one tick, and where they go. Frames by REP 105: odom ->
-/// base_footprint -> base_link -> wheels.
+/// What the driver publishes: messages made from what the robot measured in one tick, and where they go. Frames by REP 105:
+/// odom -> base_footprint -> base_link -> wheels.
 namespace astro::live {
 
 struct BaseState {
@@ -42,7 +42,8 @@ ros2::msg::TFMessage transforms(const BaseState& state, const ros2::RobotModel& 
                                 bool with_odometry = true);
 /// base_footprint -> base_link, which is the same place: the floor between the wheels. Nothing if odometry is that of base_link.
 ros2::msg::TFMessage fixed_transforms(std::int64_t time_ns, const Names& names);
-/// Angles and speeds of the wheels. `factors`: those that the robot's speeds are made with. Precondition: the model is complete.
+/// Angles and speeds of the wheels. `factors`: those that the robot computes its speeds with. Precondition: the model is
+/// complete.
 ros2::msg::JointState joints(const BaseState& state, const protocol::Telemetry& telemetry,
                              const ros2::RobotModel& model, const calibration::WheelFactors& factors);
 ros2::msg::BatteryState battery(std::int64_t time_ns, double voltage_V, const Names& names);
@@ -59,7 +60,7 @@ class Outlet {
     for (Middleware* each : middlewares) publishers_.push_back(each->advertise(topic));
   }
 
-  /// A latched topic always is: somebody may subscribe later.
+  /// Always true for a latched topic, because somebody may subscribe later.
   bool wanted() const {
     return latched_ || std::any_of(publishers_.begin(), publishers_.end(),
                                    [](const auto& each) { return each->has_subscribers(); });

@@ -20,15 +20,15 @@ struct UncertainPose {
 
 Symmetric3 on_floor(const std::array<double, 36>& c) { return {c[0], c[1], c[5], c[7], c[11], c[35]}; }
 
-/// No direction has a negative variance: the principal minors are not negative, but for rounding.
+/// Whether no direction has a negative variance: no principal minor may be negative beyond rounding.
 bool is_covariance(const Symmetric3& p) {
   const auto minor = [](double a, double b, double ab) { return a * b * (1 + 1e-9) >= ab * ab; };
   return p.xx >= 0 && p.yy >= 0 && p.tt >= 0 && minor(p.xx, p.yy, p.xy) && minor(p.xx, p.tt, p.xt) &&
          minor(p.yy, p.tt, p.yt) && determinant(p) >= -1e-9 * p.xx * p.yy * p.tt;
 }
 
-/// The pose on the floor that a message sets. Throws astro::Error if there is none, it is in another frame than `frame`, holds
-/// NaN or infinity, an orientation of length 0, or a covariance of (x, y, yaw) that is none.
+/// The pose on the floor that a message sets. Throws astro::Error if there is no message, or if it is in another frame than
+/// `frame`, holds NaN or infinity, an orientation of length 0, or an impossible covariance of (x, y, yaw).
 UncertainPose planar(const std::optional<ros2::msg::PoseWithCovarianceStamped>& message,
                      const std::string& frame) {
   if (!message) throw Error("the message is damaged");
@@ -112,8 +112,8 @@ void Requests::subscribe(Middleware& middleware, std::string_view name, int dept
                        [take](ByteView bytes) { take(ros2::decode<M>(bytes)); });
 }
 
-/// Velocities are taken as they come, from publishers of either kind: one that was lost is older than the next one, and must
-/// not come late.
+/// Subscribes with best effort, which publishers of either reliability serve: a lost velocity must not be sent again, because
+/// it would come late, after a newer one.
 void Requests::subscribe_to_velocities(CommandType type) {
   const auto take_velocity = [this](const auto& twist) { robot_.driving.take(twist, robot_.now()); };
   for (Middleware* each : middlewares_) {
@@ -132,7 +132,7 @@ void Requests::set_pose(const std::optional<ros2::msg::PoseWithCovarianceStamped
     return "set";
   });
   if (outcome.success) return;
-  constexpr microseconds kSameAgain = std::chrono::seconds(10);  // whoever repeats it is answered once
+  constexpr microseconds kSameAgain = std::chrono::seconds(10);  // a repeated refusal is reported once
   const microseconds now = robot_.now().steady;
   const auto last = robot_.odometry.refused_pose();
   robot_.odometry.refuse({outcome.message, now});

@@ -16,10 +16,10 @@
 
 namespace astro::live {
 
-/// What others ask of the robot: velocities, poses, and the services, of which host/live/README.md has the list.
+/// Takes what others request of the robot: velocities, poses, and the services that host/live/README.md lists.
 class Requests {
  public:
-  /// Whom they concern. All of it must outlive the middlewares' callbacks.
+  /// What the requests act on. All of it must outlive the middlewares' callbacks.
   struct Robot {
     RobotLink& link;
     Driving& driving;
@@ -33,7 +33,7 @@ class Requests {
   Requests(std::span<Middleware* const> middlewares, const Names& names, CommandType velocities, Robot robot);
 
  private:
-  /// Asks the robot; returns what was done, or throws why not.
+  /// Carries out a request; returns what was done, or throws with the reason.
   using Work = std::function<std::string(RobotSession&)>;
 
   void subscribe_to_velocities(CommandType type);

@@ -14,8 +14,8 @@
 namespace astro::live {
 
 /// One connection to a robot, from the handshake until it is lost: its parameters and the stream of its telemetry. Requests
-/// are given up after half a second, and a commit of parameters, for which the robot may have to erase flash, after two, so that
-/// whoever waits for the driver waits no longer. The robot can be stopped at once: its parameter table is read later.
+/// time out after half a second, and a parameter commit, for which the robot may have to erase flash, after two seconds, so
+/// that nobody waits longer for the driver. The parameter table is read later, so that the robot can be stopped at once.
 class RobotSession {
  public:
   /// Shakes hands and asks for telemetry. Throws astro::Error with the reason if no robot answers, or another one than `known`.
@@ -34,7 +34,7 @@ class RobotSession {
 
   /// The robot's clock in microseconds, read just now.
   std::uint64_t device_now_us() { return ask(protocol::Ping{}).device_time_us; }
-  /// If none came for some periods, asks for telemetry again.
+  /// Asks for telemetry again if none has come for half a second and for five periods.
   void keep_telemetry();
 
   bool restarted() const { return restarted_; }
@@ -42,13 +42,13 @@ class RobotSession {
   bool take_fault() { return std::exchange(fault_, false); }
 
   robot::Client& client() { return *client_; }
-  /// Reads some of the parameter table, one parameter at least, more while this takes less than `most`. True if all are known.
+  /// Reads at least one parameter of the table, and more until `most` has passed. True if all are known.
   bool read_parameters(microseconds most);
   bool knows_parameters() const { return parameters_.is_complete(); }
   robot::RemoteParameters& parameters() { return parameters_; }
-  /// Before all parameters are known: the command time-out alone.
+  /// The parameters by name. Before all are known, it holds only the command time-out.
   const std::map<std::string, double>& numbers() const { return numbers_; }
-  /// After the parameters have changed.
+  /// To be called after the parameters have changed.
   void note_parameters() { numbers_ = parameters_.numbers(); }
   microseconds telemetry_age() const { return client_->now() - telemetry_at_; }
 
@@ -72,8 +72,8 @@ class RobotSession {
 /// Opens the robot's port; throws astro::Error with the reason if that is not possible now.
 using OpenPort = std::function<std::unique_ptr<robot::Transport>()>;
 
-/// The way to one robot, which may not be there yet, go away and come back. The first robot that answers is the one: another
-/// one at the same port is not taken for it, because its odometry and its parameters are others.
+/// The link to one robot, which may not be there yet, and may go away and come back. It belongs to the first robot that
+/// answers. Another robot at the same port is refused, because its odometry and its parameters are different.
 class RobotLink {
  public:
   RobotLink(OpenPort open, HostClock clock, std::uint16_t telemetry_period_ms)
@@ -82,9 +82,9 @@ class RobotLink {
   /// Null while there is no robot.
   RobotSession* session() { return session_.get(); }
 
-  /// Tries to reach the robot, if it is time for another try. True if there is a session now, a new one.
+  /// Tries to reach the robot, if it is time for another try. True if there is a new session now.
   bool seek();
-  /// The session has ended, for this reason.
+  /// Ends the session, for this reason.
   void lose(const Error& why);
 
   /// Why there is no session.

@@ -137,7 +137,7 @@ OwnParameter* RobotParameterTable::own(std::string_view name) {
   return found == own_.end() ? nullptr : &*found;
 }
 
-/// "" if it can be set, or is none of the node's own.
+/// Why one of the node's own parameters cannot be set; "" if it can, or if it is not one of them.
 std::string RobotParameterTable::why_not_own(const ros2::msg::Parameter& wanted) {
   const OwnParameter* one = own(wanted.name);
   if (one == nullptr) return "";
@@ -177,7 +177,7 @@ bool RobotParameterTable::is_fresh() {
 }
 
 bool RobotParameterTable::step(RobotSession& session, microseconds most) {
-  if (busy_()) next_.reset();  // what was read before a drive is old after it
+  if (busy_()) next_.reset();  // after a drive, all values have to be read again
   if (!next_) return false;
   robot::RemoteParameters& robot = session.parameters();
   const microseconds until = session.client().now() + most;
@@ -221,7 +221,7 @@ ros2::msg::SetParametersResult RobotParameterTable::set(std::span<const ros2::ms
   return {true, ""};
 }
 
-/// Puts them in force; "" if that was done.
+/// Puts the parameters in force; "" if that was done, otherwise why not.
 std::string RobotParameterTable::why_not_robots(std::span<const ros2::msg::Parameter> parameters) {
   RobotSession* session = known_session();
   if (session == nullptr)
@@ -253,7 +253,8 @@ std::string RobotParameterTable::put_at_start(std::span<const ros2::msg::Paramet
   return fresh.empty() ? "" : why_not_robots(fresh);
 }
 
-/// From the work on a set, for whatever must not wait for it.
+/// Called between the requests of a set, for work that must not wait for the end of the set. Throws
+/// robot::LinkLost if the session has ended meanwhile.
 void RobotParameterTable::look_up(RobotSession& session) {
   meanwhile_();
   if (session_() != &session) throw robot::LinkLost("the robot was lost while its parameters were set");

@@ -12,11 +12,11 @@ namespace astro::live {
 /// Values: the assignments, "b=0.3 c_R=1.002".
 enum class TableProblem { needs_confirmation };
 
-/// A parameter of the node itself, for all to read.
+/// A parameter of the node itself, which everybody may read.
 struct OwnParameter {
   std::string name, doc;
   ros2::msg::ParameterValue value;
-  /// Called with another value of the same type once it is set; nothing: nobody can set it.
+  /// Called when another value of the same type was set. If it is empty, nobody can set the parameter.
   std::function<void(const ros2::msg::ParameterValue&)> on_set = {};
 };
 
@@ -25,14 +25,14 @@ struct OwnParameter {
 /// that a person would have to confirm (host/robot/parameters/far_change.hpp) is refused here. While there is no robot, or its
 /// parameters are not known yet, only the node's own are there.
 ///
-/// Other programs may change the robot's parameters, too. If somebody asks is_fresh() more than a second after the values were read,
-/// step() reads them again, a little at a time. While the robot is armed the old values stand: nobody can change them until it is
-/// at rest, and on a slow line the whole table takes as long as the robot's own time-out.
+/// Other programs may change the robot's parameters, too. If somebody asks is_fresh() more than a second after the values
+/// were read, step() reads them again, a little at a time. While the robot is armed the values are not read again: nobody can
+/// change them until it is at rest, and on a slow line reading the whole table takes as long as the robot's own time-out.
 class RobotParameterTable : public ParameterTable {
  public:
   /// The session now, or null.
   using Session = std::function<RobotSession*()>;
-  /// Whether the robot is in use, so that its link has no time for a table of values that nobody can change meanwhile.
+  /// Whether the robot is in use. Then the link has no time for reading the table, whose values nobody can change meanwhile.
   using Busy = std::function<bool()>;
 
   /// `changed` is called after values have changed; `lost` if the link is lost in a set; `words` puts a refusal into words.
@@ -53,13 +53,13 @@ class RobotParameterTable : public ParameterTable {
   std::optional<ros2::msg::ParameterValue> value(std::string_view name) override;
   ros2::msg::SetParametersResult set(std::span<const ros2::msg::Parameter> parameters) override;
 
-  /// The values of a new session have just been read.
+  /// To be called when the values of a new session have just been read.
   void begin(microseconds now) {
     read_at_ = now;
     next_.reset();
   }
-  /// Reads some values if somebody waits for them: one at least, more while this takes less than `most`. True if more are to be
-  /// read. Throws what a request throws.
+  /// If somebody waits for values, reads at least one, and more until `most` has passed. True if more are to be read. Throws
+  /// what a request throws.
   bool step(RobotSession& session, microseconds most);
   /// Sets those that the robot has and that differ. "" if they are in force, otherwise why not.
   std::string put_at_start(std::span<const ros2::msg::Parameter> parameters);

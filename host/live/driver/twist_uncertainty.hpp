@@ -9,7 +9,7 @@ struct TwistCovariance {
   double vv = 0, vw = 0, ww = 0;
 };
 
-/// Variance of a speed that the robot's observer (common/control/observer.hpp) makes of whole counts, in (m/s)^2.
+/// Variance of a speed that the robot's observer (common/control/observer.hpp) computes from whole counts, in (m/s)^2.
 ///
 ///     var = 0.0158 (w q)^2 / (1 - w T)
 ///
@@ -23,9 +23,9 @@ struct TwistCovariance {
 /// whose sum is at most 0.312. That largest value is stated at every speed, because speeds change.
 double count_ripple_variance(const OdometryGeometry& geometry);
 
-/// Of the robot's observed velocity as a measurement of the mean velocity over `period_s`, the time between two messages:
-/// the ripple of the counts, slip of variance K |speed| / period for each wheel, and the factors' covariance. The ripple of
-/// both wheels and their slip are independent.
+/// Covariance of the robot's observed velocity, as a measurement of the mean velocity over `period_s`, the time between two
+/// messages. It is the sum of the ripple of the counts, of slip with the variance K |speed| / period for each wheel, and of
+/// the factors' covariance. Ripple and slip of the two wheels are independent.
 TwistCovariance twist_covariance(double v_mps, double omega_radps, double period_s,
                                  const OdometryGeometry& geometry, const calibration::OdometryErrors& errors);
 

@@ -18,8 +18,8 @@ namespace astro::foxglove {
 /// A TCP socket, as a layer below Boost.Beast, that takes what is written at once and sends everything that has gathered with one
 /// system call. A robot's telemetry is many small messages, of which each would otherwise cost a call and a wake-up.
 ///
-/// Bounds   the owner writes only while waiting() is small. Beast itself answers pings; of these answers no more than kMost wait,
-///          and then its next write fails.
+/// Bounds   the owner writes only while waiting() is small. Beast itself answers pings; if more than kMost bytes wait, its
+///          next write fails.
 /// Threads  those of the socket's executor, which must run one handler at a time.
 class BatchingSocket {
  public:
@@ -38,7 +38,7 @@ class BatchingSocket {
 
   /// Called when a batch has gone out.
   void on_sent(std::function<void()> call) { state_->on_sent = std::move(call); }
-  /// Bytes that are not with the system yet.
+  /// Bytes that the system has not taken yet.
   std::size_t waiting() const { return state_->gathering.size() + state_->sending.size(); }
   /// Sends what has gathered, unless a batch is on its way; then it follows.
   void flush() { send(state_); }
@@ -52,7 +52,7 @@ class BatchingSocket {
   auto async_read_some(const Buffers& buffers, Handler&& handler) {
     return state_->socket.async_read_some(buffers, std::forward<Handler>(handler));
   }
-  /// Beast asks for these two wherever it writes without a handler; nobody calls them.
+  /// Beast requires these two wherever it writes without a handler; nobody calls them.
   template <class Buffers>
   std::size_t read_some(const Buffers& buffers, error_code& error) {
     return state_->socket.read_some(buffers, error);
@@ -124,7 +124,7 @@ class BatchingSocket {
   std::shared_ptr<State> state_;
 };
 
-/// How Beast ends a WebSocket on it, found by its name.
+/// Beast finds this function by its name, and calls it to end a WebSocket.
 inline void teardown(boost::beast::role_type, BatchingSocket& socket, boost::system::error_code& error) {
   error = {};
   socket.finish();

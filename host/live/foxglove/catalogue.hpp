@@ -46,7 +46,7 @@ struct Catalogue {
   std::vector<Channel> channels;
   std::vector<Inlet> inlets;
   std::vector<Service> services;
-  bool takes_messages = false;  // whether inlets may ever come
+  bool takes_messages = false;  // whether clients may publish
   bool has_parameters = false;
 };
 

@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDeepest = 8;  // of values in values
+constexpr int kDeepest = 8;  // levels of nested values
 constexpr std::uint8_t kPublish = 1, kServiceCall = 2;
 
-/// For a sentence about it: as much of what came as helps to find it.
+/// The part of a message that is quoted in an error, so that the message can be found.
 std::string excerpt(std::string_view text) {
   constexpr std::size_t kMostShown = 40;
   return text.size() <= kMostShown ? std::string(text) : std::string(text.substr(0, kMostShown)) + "...";

@@ -98,13 +98,14 @@ struct ServiceCall {
 using ClientMessage = std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, GetParameters,
                                    SetParameters, WatchParameters, WatchGraph, Publish, ServiceCall>;
 
-/// Of a message as text. One that lists all parameters of a robot takes some 10 KiB.
+/// The longest text message, in bytes. A message that lists all parameters of a robot takes some 10 KiB.
 inline constexpr std::size_t kLongestText = 256 * 1024;
-/// Entries of a list in a message: names of parameters, subscriptions, topics. A robot has some sixty parameters.
+/// The most entries of a list in a message: names of parameters, subscriptions, topics. A robot has some sixty parameters.
 inline constexpr std::size_t kMostListed = 1000;
 
-/// Throws astro::Error that says what is wrong, for whatever is no message of the protocol: other JSON, an unknown "op", missing
-/// or wrong fields, lists longer than kMostListed, names longer than ros2::kLongestName, values nested deeper than the protocol's.
+/// Throws astro::Error that says what is wrong, for anything that is not a message of the protocol: other JSON, an unknown
+/// "op", missing or wrong fields, lists longer than kMostListed, names longer than ros2::kLongestName, values nested deeper
+/// than the protocol's.
 ClientMessage parse_text(std::string_view text);
 
 /// Views into `frame`. Throws astro::Error for an unknown kind, and for a frame that is too short.

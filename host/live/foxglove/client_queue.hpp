@@ -22,8 +22,9 @@ struct Frame {
 /// What waits to be sent to one client. Control messages (answers, lists, latched topics) go first and are never dropped; of
 /// data the oldest is dropped when more waits than fits.
 ///
-/// Bounds  data: 4 MiB or 16384 messages, about a second of a robot's fastest telemetry: a browser may stand still for so long,
-///         and what is older is of no use to somebody who watches. Control messages: 4 MiB or 4096; beyond that the client must be disconnected.
+/// Bounds  data: 4 MiB or 16384 messages, about a second of a robot's fastest telemetry: a browser may stall for so long, and
+///         older data is of no use to somebody who watches. Control messages: 4 MiB or 4096; beyond that the client must be
+///         disconnected.
 class ClientQueue {
  public:
   static constexpr std::size_t kMostData = 16384, kMostDataBytes = 4 << 20;
@@ -31,7 +32,7 @@ class ClientQueue {
 
   void push_text(std::string text) { push_control({true, std::move(text), nullptr, 0}); }
   void push_binary(std::string bytes) { push_control({false, std::move(bytes), nullptr, 0}); }
-  /// Of a latched topic.
+  /// Queues a sample of a latched topic, as a control message.
   void push_latched(std::uint32_t subscription, SharedSample sample);
   void push_data(std::uint32_t subscription, SharedSample sample);
 
@@ -42,7 +43,7 @@ class ClientQueue {
 
   bool overflowed() const { return overflowed_; }
   bool empty() const { return control_.empty() && data_.empty(); }
-  /// Data messages since the start.
+  /// The number of data messages that were dropped since the start.
   std::uint64_t dropped() const { return dropped_; }
 
  private:

@@ -36,7 +36,7 @@ constexpr std::size_t kBatch =
 constexpr int kSystemBuffer =
     256 * 1024;  // so that a slow client sees data of now, and not of some seconds ago
 
-/// The newest that both sides know; "" if there is none.
+/// The newest subprotocol that both sides know; "" if there is none.
 std::string subprotocol_of(const HttpRequest& request) {
   http::token_list offered(request[http::field::sec_websocket_protocol]);
   for (const char* ours : {"foxglove.sdk.v1", "foxglove.websocket.v1"})
@@ -101,7 +101,7 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
       rules_.notice(
           {fmt::format("the viewer at {} was disconnected: {}", peer_, why.sentence), why.kind, {peer_}});
     if (session_ == nullptr || stuck_since_) return cut();
-    heard_at_ = Clock::now();  // until it has gone, others are idler
+    heard_at_ = Clock::now();  // so that others count as idler until it has gone
     stream_.async_close({websocket::close_code::try_again_later, why.sentence},
                         [self = shared_from_this()](error_code) {});
     stream_.next_layer().finish();
@@ -204,7 +204,7 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
     });
   }
 
-  /// Without a word: the other side does not read, or has not said what it wants.
+  /// Ends the connection without a message, because the other side does not read, or has sent no request.
   void cut() {
     error_code ignored;
     stream_.next_layer().next_layer().close(ignored);
@@ -219,7 +219,7 @@ class WebSocketConnection : public Connection, public std::enable_shared_from_th
     session_ = nullptr;
     try {
       rules_.notice({fmt::format("the viewer at {} has gone", peer_)});
-    } catch (const std::exception&) {  // a destructor ends connections, too
+    } catch (const std::exception&) {  // the destructor calls end(), too
     }
   }
 

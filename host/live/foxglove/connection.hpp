@@ -14,10 +14,11 @@
 
 namespace astro::foxglove {
 
-/// What connections have in common. It must outlive them, but for the calls that a connection may still make when it ends.
+/// What connections have in common. It must outlive them, because a connection still calls `hub` and `notice` in its
+/// destructor.
 struct ConnectionRules {
-  std::vector<std::string> origins;  // that are allowed beside the usual ones (origin.hpp)
-  std::set<std::string> refused;     // origins that were reported; a page may try again and again
+  std::vector<std::string> origins;  // allowed in addition to the usual ones (origin.hpp)
+  std::set<std::string> refused;     // already reported, because a page may try again and again
   Hub* hub = nullptr;
   std::function<void(Remark)> notice;
 };
@@ -41,13 +42,13 @@ class Connection {
   virtual void close() = 0;
   virtual bool ended() const = 0;
 
-  /// Whether the client subscribes anything.
+  /// Whether the client has subscribed to anything.
   virtual bool watches() const = 0;
   /// When the other side said something last, or connected.
   virtual Clock::time_point heard_at() const = 0;
   /// Since when nothing of what waits for the client could be sent; nothing if it reads.
   virtual std::optional<Clock::time_point> stuck_since() const = 0;
-  /// Ends the connection at once, and tells a client why as far as it reads. `why`: a clause.
+  /// Ends the connection at once. A client that still reads is told why. `why`: a clause.
   virtual void dismiss(const Remark& why) = 0;
 };
 

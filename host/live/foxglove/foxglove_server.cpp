@@ -12,9 +12,9 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Parameters also change by other programs, which nobody reports.
+/// The period of comparing parameters, because other programs also change them and nobody reports that.
 constexpr std::chrono::seconds kComparePeriod{1};
-/// A poll() begins no question after this, so that a thousand of them do not keep the robot's thread.
+/// After this time a poll() begins no further question, so that a thousand of them do not block the robot's thread.
 constexpr std::chrono::milliseconds kShare{2};
 enum Rank : int { kUrgent, kMessage, kQuestion, kLater };
 
@@ -35,7 +35,7 @@ class FoxglovePublisher : public live::Publisher {
     auto task = [channel = channel_, sample = std::move(sample)](Hub& hub) { hub.publish(channel, sample); };
     latched_ ? server_.post(std::move(task)) : server_.post_data(std::move(task));
   }
-  /// Of a latched topic: those that will come.
+  /// Always true for a latched topic, because somebody may subscribe later.
   bool has_subscribers() const override { return latched_ || *subscribers_ > 0; }
 
  private:
@@ -91,8 +91,8 @@ void FoxgloveServer::poll() {
   server_->flush();
 }
 
-/// What stops the robot, then messages, of which only the newest are kept and none may wait until it is stale, then questions.
-/// Those about parameters wait while these are being read.
+/// The order of requests: first calls that stop the robot, then messages, because only the newest are kept and none may
+/// become stale, then questions. Questions about parameters wait while these are being read.
 int FoxgloveServer::rank(const Request& request) {
   if (std::holds_alternative<ParametersAsked>(request) || std::holds_alternative<ParametersGiven>(request))
     return table_ == nullptr || table_->is_fresh() ? kQuestion : kLater;
@@ -101,7 +101,8 @@ int FoxgloveServer::rank(const Request& request) {
   return call != nullptr && urgent_.contains(call->service) ? kUrgent : kQuestion;
 }
 
-/// As many as wait now, so that this call ends, and questions only as long as the robot and other middlewares can wait.
+/// Answers only as many requests as wait at its begin, so that the call ends. After kShare it begins no question, because the
+/// robot and other middlewares must not wait longer.
 void FoxgloveServer::answer_waiting() {
   const auto until = steady_clock::now() + kShare;
   const auto rank_of = [this](const Request& request) { return rank(request); };
@@ -146,7 +147,7 @@ void FoxgloveServer::take(const ParametersAsked& asked) {
                     Hub& hub) { hub.answer_text(client, text); });
 }
 
-/// "" if they were set.
+/// Sets the parameters; "" if that was done, otherwise why not.
 std::string FoxgloveServer::refusal_of(std::span<const ros2::msg::Parameter> parameters) {
   if (table_ == nullptr) return "there are no parameters";
   if (!settings_.allow_commands) return "viewers may not change parameters here";
@@ -158,7 +159,7 @@ void FoxgloveServer::take(const ParametersGiven& given) {
   const std::string refusal = refusal_of(given.what.parameters);
   std::vector<std::string> names;
   for (const ros2::msg::Parameter& each : given.what.parameters) names.push_back(each.name);
-  // Also after a refusal: the viewer shows what it tried to set until it hears of the value.
+  // The values are sent also after a refusal, because until then the viewer shows what it tried to set.
   std::string values =
       parameter_values(names.empty() ? std::vector<ros2::msg::Parameter>{} : values_of(names), given.what.id);
   server_->post([client = given.client, refusal, values = std::move(values)](Hub& hub) {
@@ -173,7 +174,7 @@ void FoxgloveServer::take(const NoticeArrived& arrived) { settings_.notice(arriv
 void FoxgloveServer::tell_changes() {
   if (table_ == nullptr || (*watched_ && !table_->is_fresh())) return;
   compare_at_ = steady_clock::now() + kComparePeriod;
-  // Whether anybody watches is known in the other thread: asked now, seen the next time.
+  // Only the server's thread knows whether anybody watches. It is asked now, and the next call sees the answer.
   server_->post([watched = watched_](Hub& hub) { *watched = hub.parameters_are_watched(); });
   if (!*watched_) return told_.clear();
   std::vector<ros2::msg::Parameter> changed;

@@ -18,7 +18,7 @@ namespace astro::foxglove {
 struct Settings {
   std::string name;  // of the robot, for people
   Address address{};
-  std::vector<std::string> origins{};  // of web pages that may connect beside the usual ones (origin.hpp)
+  std::vector<std::string> origins{};  // of web pages that may connect, besides the usual ones (origin.hpp)
   /// Whether viewers may publish, call any service and set parameters. Otherwise they may look, and call `always_served`.
   bool allow_commands = false;
   std::vector<std::string> always_served{};  // names of services: those that stop the robot
@@ -42,7 +42,7 @@ class FoxgloveServer : public live::Middleware {
   std::unique_ptr<live::Publisher> advertise(const live::TopicDescription& topic) override;
   /// Nothing comes if commands are not allowed.
   void subscribe(const live::TopicDescription& topic, OnMessage on_message) override;
-  /// A viewer sees of these topics only what it sends itself.
+  /// True, because of these topics a viewer sees only what it sends itself.
   bool types_may_share_a_name() const override { return true; }
   /// Not offered if commands are not allowed, unless it is one of `always_served`.
   void serve(const live::ServiceDescription& service, OnRequest on_request) override;

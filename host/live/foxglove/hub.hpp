@@ -21,14 +21,14 @@ class Hub {
   /// `name` and `session_id`: as in Catalogue. `takes_messages`: whether clients may publish at all.
   Hub(std::string name, std::string session_id, bool takes_messages, RequestSink sink);
 
-  /// Ids are the numbers of channels (inlets, services) so far, from 1. Clients that are there learn of it.
+  /// Adds a channel (inlet, service). Its id is its number among those of its kind, from 1. Clients that are there are told.
   void add(Channel channel);
   void add(Inlet inlet);
   void add(Service service);
-  /// Before the first client.
+  /// To be called before the first client joins.
   void has_parameters() { catalogue_.has_parameters = true; }
 
-  /// The client gets the list of all that is there. The session stays where it is until it leaves.
+  /// Adds a client, which gets the list of all that is there. The session's address does not change until leave().
   Session& join();
   void leave(ClientId id);
   /// `make_room`: see Watchers.
@@ -38,7 +38,7 @@ class Hub {
   /// Answers of the robot; those to clients that have left are dropped.
   void answer_text(ClientId client, std::string text);
   void answer_binary(ClientId client, std::string bytes);
-  /// A control message that answers nothing.
+  /// Sends a control message that answers nothing.
   void tell(ClientId client, std::string text);
   void parameters_changed(std::span<const ros2::msg::Parameter> parameters);
   bool parameters_are_watched() const;

@@ -23,7 +23,7 @@ bool origin_is_allowed(std::string_view origin, std::span<const std::string> all
 /// sandboxes have it.
 bool origin_can_be_proposed(std::string_view origin);
 
-/// Whether a browser would name a page so: scheme://host[:port], without a path; or "null".
+/// Whether the text has the form of an origin that a browser names: scheme://host[:port], without a path; or "null".
 bool is_origin(std::string_view origin);
 
 }  // namespace astro::foxglove

@@ -13,14 +13,14 @@ namespace astro::foxglove {
 
 /// What waits for the robot's thread. Any thread pushes, one takes.
 ///
-/// Bounds  questions: each client has a bounded number of them (Session). Messages: of one topic the last 10, because of what
-///         somebody commands the newest counts. Notices: 32.
+/// Bounds  questions: each client has a bounded number of them (Session). Messages: the last 10 of each topic, because only
+///         the newest command counts. Notices: 32.
 class RequestQueue {
  public:
   static constexpr std::size_t kMostMessages = 10, kMostNotices = 32;
 
   void push(Request request);
-  /// Of the requests of the lowest rank the oldest; nothing if its rank is above `last`.
+  /// Takes the oldest request of the lowest rank; nothing if that rank is above `last`.
   std::optional<Request> pop(const std::function<int(const Request&)>& rank, int last);
   std::size_t size() const;
   /// Returns when something waits, or at the latest after `timeout`.

@@ -8,7 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/live/foxglove/client_messages.hpp"
 
-/// What clients ask of the robot, and the robot's thread has to do; the server itself answers everything else.
+/// Requests of clients that the robot's thread has to carry out. The server itself answers all others.
 namespace astro::foxglove {
 
 using ClientId = std::uint32_t;

@@ -26,7 +26,7 @@ using boost::system::error_code;
 
 constexpr std::size_t kMostConnections = 64;  // with those that are not clients yet
 constexpr std::size_t kMostLeaving = 16;      // beyond them: told to go, and not gone yet
-constexpr std::chrono::seconds kStuck{3};     // who has read nothing for so long gives its place away
+constexpr std::chrono::seconds kStuck{3};     // a client that has read nothing for so long may have to go
 constexpr std::size_t kMostTasks = 10'000;
 constexpr std::chrono::milliseconds kReportPeriod{250}, kGoodbyeTime{200}, kRestAfterFailure{100};
 
@@ -69,7 +69,7 @@ class Server::Impl {
 
   void start() {
     if (thread_.joinable()) return;
-    const BlockedSignals blocked;  // they are for the robot's thread
+    const BlockedSignals blocked;  // signals are for the robot's thread
     thread_ = std::thread([this] { run(); });
   }
 
@@ -100,7 +100,7 @@ class Server::Impl {
       }
   }
 
-  /// Whoever is told may throw as well, which must not end the server.
+  /// The callback may throw as well, which must not end the server.
   void say(const std::exception& error) noexcept {
     try {
       rules_.notice({fmt::format("a viewer could not be served: {}", error.what())});
@@ -108,15 +108,16 @@ class Server::Impl {
     }
   }
 
-  /// At the start, and after a handler threw: it may have been the one that accepts viewers or reports to them, which then has not
-  /// begun anew, or one that says goodbye, which must not keep the program.
+  /// Called at the start, and after a handler has thrown. If that handler accepted viewers or reported to them, it has not
+  /// started its next round, so that is done here. If the server is closing, it stops, so that it does not keep the program
+  /// from ending.
   void begin() {
     if (closing_) return io_.stop();
     if (!accepts_) accept();
     if (!reports_) report_later();
   }
 
-  /// Under mutex_.
+  /// Precondition: the caller holds mutex_.
   void wake() {
     if (!std::exchange(awake_, true)) asio::post(io_, [this] { work(); });
   }
@@ -157,7 +158,8 @@ class Server::Impl {
     accepts_ = true;
   }
 
-  /// There is always one, because fewer may watch than may be connected. So whoever wants to stop the robot gets in.
+  /// Disconnects the client that watches nothing and has been silent for longest. There is always one, because fewer may
+  /// watch than may be connected. So a client that wants to stop the robot can always connect.
   void dismiss_idlest() {
     Connection* idlest = nullptr;
     for (const auto& each : connections_)
@@ -168,7 +170,8 @@ class Server::Impl {
     std::erase_if(connections_, [](const auto& connection) { return connection->ended(); });
   }
 
-  /// Another client wants to watch, and the places are taken. Called while the connections are gone through, so none is erased.
+  /// Called when another client wants to watch and all places are taken. The caller may be iterating over the connections, so
+  /// none is erased.
   void dismiss_stuck_watcher() {
     Connection* stuck = nullptr;
     for (const auto& each : connections_)
@@ -230,7 +233,7 @@ class Server::Impl {
   bool closing_ = false;
   std::mutex mutex_;
   std::vector<Task> tasks_;  // under mutex_
-  bool awake_ = false;       // under mutex_: somebody has told the thread of the tasks
+  bool awake_ = false;       // under mutex_: work() has been posted
   std::thread thread_;
 };
 

@@ -17,12 +17,12 @@ enum class ServerProblem { port_taken };
 enum class ViewerProblem { idle, stuck };
 
 struct Address {
-  std::string ip = "127.0.0.1";  // of this computer's networks; "0.0.0.0" or "::": all of them
+  std::string ip = "127.0.0.1";  // of one of this computer's networks; "0.0.0.0" or "::": all
   std::uint16_t port = 8765;     // 0: any that is free
 };
 
-/// A hub on the network, on a thread of its own, so that whatever the robot's thread does, viewers are served, and whatever a
-/// viewer does, the robot's thread does not wait.
+/// Serves a hub on the network. It has its own thread, so that viewers are served whatever the robot's thread does, and the
+/// robot's thread does not wait, whatever a viewer does.
 class Server {
  public:
   /// Work on the hub, done in the server's thread.
@@ -40,7 +40,7 @@ class Server {
 
   /// Begins to serve; a second call does nothing. Tasks that were posted before come first.
   void start();
-  /// From any thread. Tasks are done in their order.
+  /// May be called from any thread. Tasks are done in their order.
   void post(Task task);
   /// The same for data: it is done with the next post() or flush(), so that many messages wake the other thread once; and it is left
   /// out when thousands of tasks wait already, because the computer is too busy.

@@ -21,7 +21,7 @@ json schema(const live::MessageType& type) {
           {"schema", type.definition}};
 }
 
-/// The entries that are new or have changed. A name where nobody is left stands with nobody, unless it is in `removed`.
+/// The entries that are new or have changed. A name that nobody uses any more has an empty list, unless it is in `removed`.
 json changed(const ConnectionGraph::Ends& before, const ConnectionGraph::Ends& after, const json& removed,
              const char* whose) {
   json list = json::array();

@@ -22,11 +22,11 @@ std::string server_info(const Catalogue& catalogue);
 std::string advertise(std::span<const Channel> channels);
 std::string advertise_services(std::span<const Service> services);
 std::string status(Level level, std::string_view message);
-/// `id`: of the request that it answers.
+/// `id`: that of the request that it answers.
 std::string parameter_values(std::span<const ros2::msg::Parameter> parameters,
                              const std::optional<std::string>& id);
 std::string service_call_failure(std::uint32_t service, std::uint32_t call, std::string_view message);
-/// What has changed.
+/// What has changed between the two graphs.
 std::string graph_update(const ConnectionGraph& before, const ConnectionGraph& after);
 
 /// What stands before the payload of a message: kind, subscription, time.

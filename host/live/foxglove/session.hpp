@@ -15,12 +15,13 @@
 
 namespace astro::foxglove {
 
-/// How many clients subscribe at a time: each of them may have megabytes waiting. All others may still ask, and stop the robot.
+/// Limits how many clients subscribe at a time, because megabytes may wait for each of them. All others may still ask
+/// questions and stop the robot.
 struct Watchers {
   static constexpr std::size_t kMost = 16;
 
   std::size_t now = 0;
-  /// Called when one more wants to, for somebody who can end one that does not read what it subscribed.
+  /// Called when one client too many wants to subscribe. It may disconnect one that does not read what it has subscribed to.
   std::function<void()> make_room = [] {};
 };
 
@@ -28,8 +29,8 @@ struct Watchers {
 ///
 /// Errors  what is wrong in a message is said to the client in a `status` (or a serviceCallFailure), and the rest of the message
 ///         counts; the connection stays.
-/// Bounds  a channel is subscribed once, and by no more clients than Watchers allows; 256 advertised channels; 64 questions to the robot at a time, beyond which a question is
-///         refused. What is sent is bounded by ClientQueue.
+/// Bounds  a channel is subscribed once, and by no more clients than Watchers allows; 256 advertised channels; 64 questions
+///         to the robot at a time, further ones are refused. What is sent is bounded by ClientQueue.
 class Session {
  public:
   static constexpr std::size_t kMostAdvertised = 256;
@@ -44,10 +45,10 @@ class Session {
 
   ClientId id() const { return id_; }
   ClientQueue& queue() { return queue_; }
-  /// Whether it subscribes anything.
+  /// Whether it has subscribed to anything.
   bool watches() const { return !subscription_of_.empty(); }
 
-  /// One WebSocket message of the client: any bytes.
+  /// Takes one WebSocket message of the client, which may be any bytes.
   void receive(bool is_text, ByteView message);
 
   /// A new message of a channel; it is queued if the client subscribes to it.

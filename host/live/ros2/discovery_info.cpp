@@ -31,7 +31,7 @@ Bytes info_with_gids_of(const dds::Guid& participant, const ros2::NodeName& node
       {{{node.name_space}, {node.name}, gids_of<N>(endpoints.readers), gids_of<N>(endpoints.writers)}}});
 }
 
-// Those of Humble show no hash; that of the later type does no harm, because matching ignores it.
+// Nodes of Humble show no type hash. The later type's hash does no harm, because matching ignores it.
 dds::Topic topic() {
   using Info = ros2::msg::ParticipantEntitiesInfo<ros2::msg::kGidBytes>;
   return {"ros_discovery_info",

@@ -11,7 +11,8 @@
 /// come `ros2 node list` and `ros2 node info`.
 namespace astro::live {
 
-/// How long identifiers are: the distributions do not understand each other's, although the type has one name.
+/// The size of identifiers. Distributions with different sizes do not understand each other's messages, although the type has
+/// one name.
 enum class GidSize : std::size_t {
   humble = ros2::msg::kGidBytesOfHumble,
   iron_and_later = ros2::msg::kGidBytes,
@@ -25,7 +26,7 @@ struct Endpoints {
 Bytes discovery_info(const dds::Guid& participant, const ros2::NodeName& node, const Endpoints& endpoints,
                      GidSize gid_size);
 
-/// A node's endpoints, as others are told.
+/// Publishes a node's endpoints.
 class DiscoveryInfo {
  public:
   /// `participant` must outlive it.
@@ -35,7 +36,7 @@ class DiscoveryInfo {
   void add_writer(const dds::Guid& writer);
   void remove_writer(const dds::Guid& writer);
 
-  /// Tells all of it if something has changed since the last time.
+  /// Publishes all endpoints if something has changed since the last time.
   void publish_changes();
 
  private:

@@ -98,7 +98,7 @@ class Node : public Middleware {
   }
 
  private:
-  /// A poll() begins no call after this, so that many that wait do not keep the robot's thread.
+  /// After this time a poll() begins no further call, so that waiting calls do not block the robot's thread.
   static constexpr std::chrono::milliseconds kShare{5};
 
   void watch_others(TwinWatch::Clock::time_point now) {
@@ -125,7 +125,7 @@ class Node : public Middleware {
       return each.topic.name == other.topic && each.topic.type == other.type;
     });
   }
-  /// Each node serves its parameters under its full name.
+  /// Another node of the same full name is recognised by its parameter services, which have that name.
   void watch_for_twin(const std::vector<dds::RemoteEndpoint>& others, TwinWatch::Clock::time_point now) {
     const std::string name = ros2::full_name(name_);
     const std::string replies = ros2::wire_name_of_replies(name + "/get_parameters");
@@ -158,7 +158,7 @@ class Node : public Middleware {
   // Lists, so that a callback may subscribe and serve, too.
   std::list<Subscription> subscriptions_;
   std::list<Service> services_;
-  bool left_ = false;  // calls may wait that came before
+  bool left_ = false;  // calls may be left from the last poll()
   std::list<std::unique_ptr<ParameterServices>> parameters_;
 };
 

@@ -17,8 +17,9 @@ struct NodeOptions {
   GidSize gid_size = GidSize::iron_and_later;
   /// Called from poll() if another node of the same full name is there and stays; with that name.
   std::function<void(const std::string&)> on_twin = [](const std::string&) {};
-  /// Called from poll() once for each topic that the node subscribes and another node publishes under a type that the node does
-  /// not take, so that nothing of it comes; with topic and type, "/cmd_vel" and "geometry_msgs/msg/Twist".
+  /// Called from poll() once for each topic that the node subscribes and that another node publishes under a type that the
+  /// node does not take, so that none of its messages arrive. The arguments are topic and type, "/cmd_vel" and
+  /// "geometry_msgs/msg/Twist".
   std::function<void(const std::string&, const std::string&)> on_foreign_type = [](const std::string&,
                                                                                    const std::string&) {};
 };
@@ -29,7 +30,7 @@ struct NodeOptions {
 /// Throws astro::Error if a name is not valid or the network does not allow it.
 std::unique_ptr<Middleware> open_node(const NodeOptions& options, const dds::Discovery& discovery);
 
-/// On a participant of any kind; its user data should be kParticipantUserData.
+/// The same on a participant of any kind; its user data should be kParticipantUserData.
 std::unique_ptr<Middleware> open_node(const NodeOptions& options,
                                       std::unique_ptr<dds::Participant> participant);
 

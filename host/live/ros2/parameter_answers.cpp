@@ -20,7 +20,7 @@ Descriptors by_name(ParameterTable& table) {
   return descriptors;
 }
 
-/// What `each` makes of the descriptors with these names; nothing if there is none for one of them.
+/// The results of `each` for the descriptors with these names; nothing if one of the names has no descriptor.
 template <class Each>
 auto for_all(const std::vector<std::string>& names, const Descriptors& descriptors, Each each) {
   std::vector<decltype(each(descriptors.begin()->second))> results;
@@ -86,7 +86,8 @@ ros2::msg::ListParameters::Response ParameterAnswers::to(
 
 ros2::msg::SetParameters::Response ParameterAnswers::to(const ros2::msg::SetParameters::Request& request) {
   ros2::msg::SetParameters::Response response;
-  // A robot writes its flash once for each set, so all of them are tried as one; if that is refused, they do not belong together.
+  // A robot writes its flash once for each set, so all parameters are tried as one set first. If that is refused, each is
+  // tried alone.
   if (request.parameters.size() > 1 && set(request.parameters).successful) {
     response.results.assign(request.parameters.size(), {true, ""});
     return response;

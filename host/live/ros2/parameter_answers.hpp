@@ -8,13 +8,13 @@
 
 namespace astro::live {
 
-/// What a node answers when others ask for its parameters, as nodes of rclcpp do: one unknown name among those that are
-/// asked for, and the answer is empty.
+/// Answers requests for a node's parameters as nodes of rclcpp do: if one of the requested names is unknown, the answer is
+/// empty.
 ///
 /// Source  rclcpp: parameter_service.cpp, node_interfaces/node_parameters.cpp.
 class ParameterAnswers {
  public:
-  /// The parameters that have been changed at once, with the values that they have now.
+  /// Called with the parameters that one set has changed, and with their new values.
   using OnChange = std::function<void(std::span<const ros2::msg::Parameter>)>;
 
   /// `table` must outlive it.
@@ -25,7 +25,7 @@ class ParameterAnswers {
   ros2::msg::DescribeParameters::Response to(const ros2::msg::DescribeParameters::Request& request) const;
   /// The names below the prefixes, at most `depth` words further down (0: any). Words are divided by dots.
   ros2::msg::ListParameters::Response to(const ros2::msg::ListParameters::Request& request) const;
-  /// Each alone: one that is refused does not keep others from being set.
+  /// If one parameter is refused, the others are still set.
   ros2::msg::SetParameters::Response to(const ros2::msg::SetParameters::Request& request);
   ros2::msg::SetParametersAtomically::Response to(const ros2::msg::SetParametersAtomically::Request& request);
 

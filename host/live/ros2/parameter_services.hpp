@@ -12,7 +12,7 @@ namespace astro::live {
 /// The six services by which others see and change the parameters of a node, and the topic on which they are told of changes.
 class ParameterServices {
  public:
-  /// In one request. A longer list is no request of anybody who means it.
+  /// The most names in one request. A request with more is not answered, because no honest client sends one.
   static constexpr std::size_t kMostNames = 1000;
 
   /// `middleware` and `table` must outlive it. `node`: its full name, "/robot".
@@ -20,7 +20,7 @@ class ParameterServices {
   ParameterServices(const ParameterServices&) = delete;
   ParameterServices& operator=(const ParameterServices&) = delete;
 
-  /// Tells which parameters are there now and were not when it was called before, as those of a robot that was found, and which have
+  /// Publishes which parameters have appeared since the last call, such as those of a robot that was found, and which have
   /// gone.
   void look();
 

@@ -21,7 +21,7 @@ dds::Topic topic_of(std::string name, const MessageType& type, const std::string
           "serviceid=" + id + ";typehash=" + std::string(type.hash) + ';'};
 }
 
-/// Whom a request comes from, and the message in it.
+/// The client that has sent a request, and the message in it.
 struct Call {
   std::variant<FastCaller, CycloneCaller> caller;
   Bytes request;
@@ -46,7 +46,7 @@ std::optional<Call> read_call(const dds::Sample& sample, std::string_view user_d
   return Call{FastCaller{{waiting, sample.id.number}}, sample.payload};
 }
 
-/// What the answer to a caller in the manner of rmw_cyclonedds is on the wire. `response` is CDR, little-endian.
+/// The reply to a client that uses rmw_cyclonedds, as it is on the wire. `response` is CDR, little-endian.
 Bytes cyclone_reply(const CycloneCaller& caller, ByteView response) {
   ros2::CdrWriter header;
   header.number(caller.client);

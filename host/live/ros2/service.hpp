@@ -21,13 +21,13 @@
 /// Source  rmw_fastrtps_shared_cpp: rmw_request.cpp, rmw_response.cpp; rmw_cyclonedds_cpp: serdata.cpp, rmw_node.cpp.
 namespace astro::live {
 
-/// In the manner of rmw_fastrtps. `id.writer` is the client's reader of replies, or its writer of requests where an old client
-/// does not say.
+/// A client that uses rmw_fastrtps. `id.writer` is its reader of replies, or its writer of requests if it is an old client,
+/// which does not state its reader.
 struct FastCaller {
   dds::SampleId id;
 };
 
-/// In the manner of rmw_cyclonedds.
+/// A client that uses rmw_cyclonedds.
 struct CycloneCaller {
   std::string client_id;  // as its endpoints show it
   std::uint64_t client = 0;
@@ -37,19 +37,19 @@ struct CycloneCaller {
 /// The value of "key=value;" in an endpoint's user data, "" if there is none.
 std::string value_in(std::string_view user_data, std::string_view key);
 
-/// A service for clients of either kind, with one reader and one writer, because both kinds wait until as many readers of requests
-/// are there as writers of replies.
+/// A service for clients of either kind. It has one reader and one writer, because clients of both kinds wait until there are
+/// as many readers of requests as writers of replies.
 ///
-/// A request is carried out when it comes. Its reply waits until the client's reader of replies has been found, for what is
-/// written before does not reach it; a client that is not found within kHeldFor gets none.
+/// A request is carried out when it comes. Its reply waits until the client's reader of replies has been found, because a
+/// reply that is written earlier does not reach it. A client whose reader is not found within kHeldFor gets no reply.
 class Service {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kHeldFor{2};
-  static constexpr std::size_t kMostHeld = 100;  // then the oldest goes
+  static constexpr std::size_t kMostHeld = 100;  // beyond that the oldest is dropped
   static constexpr int kDepth = 100;             // requests or replies that wait in DDS
 
-  /// `id` tells the pair of reader and writer from others. `participant` must outlive the service.
+  /// `id` distinguishes this pair of reader and writer from others. `participant` must outlive the service.
   Service(dds::Participant& participant, const ServiceDescription& service, const std::string& id,
           Middleware::OnRequest on_request);
 
@@ -58,7 +58,7 @@ class Service {
 
   /// The same step by step, so that something else can be done between two requests, each of which may take long.
   void collect();
-  /// False if nothing of what was collected can be answered now.
+  /// Answers one request that was collected. False if none can be answered now.
   bool answer_next(Clock::time_point now);
   void send_replies(Clock::time_point now);
 
@@ -80,7 +80,7 @@ class Service {
 
   dds::Participant& participant_;
   Middleware::OnRequest on_request_;
-  std::unique_ptr<dds::Writer> writer_;  // before the reader: who finds the reader will be answered
+  std::unique_ptr<dds::Writer> writer_;  // before the reader, so that who finds the reader gets an answer
   std::unique_ptr<dds::Reader> reader_;
   std::deque<dds::Sample> waiting_;  // collected
   std::deque<Reply> held_;

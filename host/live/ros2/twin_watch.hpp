@@ -5,14 +5,15 @@
 
 namespace astro::live {
 
-/// Decides when a person is told of another node of the same name. One that was killed is seen for as long as its lease lasts, 5 s
-/// if it was one of these (host/live/dds), and whoever starts a node again after a crash need not be told of it.
+/// Decides when a person is told of another node of the same name. A node that was killed stays visible until its lease ends,
+/// after 5 s if it was one of ours (host/live/dds). A person who restarts a node after a crash need not be told of that, so a
+/// node counts only once it has stayed for longer.
 class TwinWatch {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kLease{8};
 
-  /// True once for each time that one has come and stayed.
+  /// True once each time that another node has come and stayed for kLease.
   bool note(bool is_there, Clock::time_point now) {
     if (!is_there) {
       since_.reset();

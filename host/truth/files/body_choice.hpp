@@ -31,9 +31,8 @@ class UnknownBody : public Error {
   std::vector<BodyName> bodies_;
 };
 
-/// The index of the body whose name or id is `wanted`. If `wanted` is empty: of the only one, or of the only one
-/// without a name.
-/// Throws UnknownBody. Precondition: `bodies` is not empty.
+/// The index of the body whose name or id is `wanted`. If `wanted` is empty, it is that of the only body, or of the only one
+/// without a name. Throws UnknownBody. Precondition: `bodies` is not empty.
 std::size_t choose_body(const std::vector<BodyName>& bodies, std::string_view wanted, std::string_view file);
 
 }  // namespace astro::truth

@@ -118,7 +118,7 @@ std::string missing(const fs::path& file) {
 
 constexpr auto kFileTimeTolerance = std::chrono::seconds(2);  // FAT stores times in steps of 2 s
 
-/// That the file was written before the run began; "" if it was not, or if the run's start is unknown.
+/// Says that the file was written before the run began; "" if it was not, or if the run's start is unknown.
 std::string too_old(const fs::path& file, const recording::Run& run) {
   const std::optional<UtcTime> started = utc_time(run.info.started_at);
   const auto written = std::chrono::floor<std::chrono::microseconds>(

@@ -96,7 +96,7 @@ int hour_of_time_code(const Rows& rows, const MotiveHeader& header) {
   return error == std::errc{} && end != cell.data() + cell.size() && *end == ':' && hour < 24 ? hour : -1;
 }
 
-/// A time code that says afternoon settles a clock of twelve hours.
+/// Completes a time on a twelve-hour clock by the hour of a time code.
 void settle_half_day(TrackFacts& facts, int hour) {
   if (facts.start_time_sure || hour < 0 || facts.start_time.size() < 13) return;
   int stated = (facts.start_time[11] - '0') * 10 + facts.start_time[12] - '0';

@@ -16,7 +16,8 @@
 /// Lost    empty cells.
 /// Axes    right-handed, y up unless another convention was chosen for the export, which the file does not say.
 ///
-/// Saved again by a spreadsheet: a byte order mark, trailing commas, semicolons with decimal commas are read.
+/// Files that a spreadsheet has saved again can be read: with a byte order mark, trailing commas, or
+/// semicolons and decimal commas.
 namespace astro::truth {
 
 /// The rigid bodies in the file. Throws astro::Error if it has none or its header is missing.
@@ -25,8 +26,8 @@ std::vector<BodyName> bodies_in_motive(std::string_view text, std::string_view f
 /// The track of one rigid body (choose_body). Throws astro::Error with file, line and column.
 BodyTrack read_motive(std::string_view text, std::string_view file, std::string_view body = {});
 
-/// "2020-12-23 01.18.10.123 PM" as "2020-12-23T13:18:10.123"; "" if it is no time. `sure` becomes false if the
-/// clock has twelve hours and no word for the half of the day that is known.
+/// "2020-12-23 01.18.10.123 PM" as "2020-12-23T13:18:10.123"; "" if it is no time. `sure` becomes false if
+/// the clock has twelve hours and no known word says morning or afternoon.
 std::string motive_start_time(std::string_view text, bool& sure);
 
 }  // namespace astro::truth

@@ -22,14 +22,15 @@ class Inflater {
 
   z_stream* operator->() { return &stream_; }
   int step() { return inflate(&stream_, Z_NO_FLUSH); }
-  /// A file may be several packed parts after each other.
+  /// A file may consist of several packed parts, one after the other.
   void next_part() { inflateReset(&stream_); }
 
  private:
   z_stream stream_{};
 };
 
-/// A text with the memory that it takes with its poses, and that they take when they are put on the floor.
+/// Collects a text, unless it would take too much memory together with its poses, or these when they are put
+/// on the floor.
 class BoundedText {
   static constexpr std::size_t kBytesOnFloor = 152;  // with what it is made from, for each pose
 

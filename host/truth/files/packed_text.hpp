@@ -13,8 +13,8 @@ enum class PackedProblem { cut_off, damaged, too_large };
 
 bool is_gzip(ByteView bytes);
 
-/// The text. With 72 bytes for the pose of each line, it may take four times the memory of the file, and 56 MiB more.
-/// Throws astro::Error naming `name` if it is damaged, is cut off, or would take more.
+/// Returns the text. Together with 72 bytes for the pose of each line, it may take four times the size of the file, and 56
+/// MiB more. Throws astro::Error naming `name` if it is damaged, is cut off, or would take more.
 Bytes unpacked(ByteSource& file, const std::string& name);
 
 }  // namespace astro::truth

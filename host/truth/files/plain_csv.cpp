@@ -122,7 +122,7 @@ PlainHeader& header_of(std::vector<PlainHeader>& headers, const std::string& bod
   return headers.back();
 }
 
-/// Takes four columns of a quaternion, else a heading, else none.
+/// Uses the four columns of a quaternion, else a heading, else no rotation.
 void settle_columns(PlainHeader& header, const PlainHeader& time, Dialect dialect) {
   PoseColumns& columns = header.columns;
   columns.dialect = dialect;

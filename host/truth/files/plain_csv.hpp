@@ -8,8 +8,8 @@
 
 /// A table whose first row names the columns.
 ///
-/// Bodies    what the names of a body's columns begin with: /mocap/pose/position/x belongs to "/mocap", robot_x_m to
-///           "robot", x_m to "". Without a time of its own a body has the first one of the table.
+/// Bodies    a body's name is what its columns' names begin with: /mocap/pose/position/x belongs to "/mocap", robot_x_m to
+///           "robot", x_m to "". A body without its own time uses the first one of the table.
 /// Position  x, y and perhaps z: x_m, "x (mm)", "x [cm]", tx, position.x, /pose/position/x
 /// Rotation  qx, qy, qz, qw (also orientation.x ...), or theta, yaw or heading about z; without either the
 ///           track has positions only
@@ -17,8 +17,8 @@
 /// Units     behind an underscore or in brackets. Without one: metres, radians, and for the time the unit that
 ///           makes an epoch time of large numbers, else seconds. facts.remarks names each unit that was assumed.
 ///
-/// Cells are apart by commas, semicolons (then with decimal points or commas), tabs or blanks. Columns of other
-/// names are passed over.
+/// Cells are separated by commas, semicolons (then with decimal points or commas), tabs or blanks. Columns with other names
+/// are ignored.
 namespace astro::truth {
 
 /// The bodies that have a time and a position. Throws astro::Error if there is none.

@@ -8,8 +8,8 @@
 namespace astro::truth {
 namespace {
 
-/// Memory limit of the samples: this much plus nearly twice the size of the text. What puts them on the floor holds 152
-/// bytes for each of their 72: with this limit at most four times the text and 64 MiB.
+/// Memory limit of the samples: this much plus nearly twice the size of the text. Putting them on the floor takes 152 bytes
+/// for each sample of 72 bytes, so with this limit at most four times the size of the text and 64 MiB.
 constexpr std::size_t kFreeSampleBytes = std::size_t{24} << 20;
 constexpr double kSampleBytesPerByte = 1.85;
 

@@ -8,7 +8,7 @@
 #include "host/truth/files/body_track.hpp"
 #include "host/truth/files/rows.hpp"
 
-/// From the cells of a row to a pose: which column holds what, in which unit.
+/// Converts the cells of a row to a pose: which column holds what, in which unit.
 namespace astro::truth {
 
 /// What a column can hold. The first two are kept as text, the others are numbers.
@@ -43,7 +43,7 @@ class PoseRow {
 
   /// The pose in SI units with a quaternion of length 1, or an invalid one if a cell is empty or no body can
   /// have this pose (zeros for a lost body). A rotation vector stays as it is in qx, qy and qz, with qw = 0,
-  /// because only the whole recording shows whether the file does not mean Euler angles.
+  /// because only the whole recording shows whether the file means Euler angles instead.
   TrackedPose pose() const;
 
  private:
@@ -57,7 +57,7 @@ class PoseRow {
   std::uint32_t present_ = 0, needed_ = 0;
 };
 
-/// Collects samples, and keeps the memory that a hostile file can take within bounds.
+/// Collects samples, and limits the memory that a hostile file can take.
 class TrackBuilder {
  public:
   TrackBuilder(BodyTrack& track, std::string_view text);
@@ -73,7 +73,7 @@ class TrackBuilder {
   std::int64_t repeated_times_ = 0;
 };
 
-/// That rows were left out. Precondition: builder.repeated_times() > 0.
+/// The remark that rows were left out. Precondition: builder.repeated_times() > 0.
 Remark repeated_times(const TrackBuilder& builder);
 
 }  // namespace astro::truth

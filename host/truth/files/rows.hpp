@@ -11,8 +11,8 @@
 /// Rows and cells of large tables, without a copy of any of them.
 namespace astro::truth {
 
-/// What is wrong with a recording. Values: the file; then of all but the first two the line and, if it is
-/// known, the column, and what stands there, of units_differ behind the unit of the columns before.
+/// What is wrong with a recording. Values: the file; then, except for the first two, the line, the column if
+/// it is known, and the text there. For units_differ the unit of the columns before comes first.
 enum class TrackProblem {
   no_header,
   no_rigid_body,
@@ -65,7 +65,7 @@ Dialect dialect_of(std::string_view line);
 /// Takes the first cell off `rest`, without outer blanks and quotes. False if nothing is left.
 bool take_cell(std::optional<std::string_view>& rest, char separator, std::string_view& cell);
 
-/// All cells of a header row. Refused: more than 100 000.
+/// All cells of a header row. More than 100 000 are refused.
 std::vector<std::string_view> split_header(const Rows& rows, char separator);
 
 /// A finite number; nothing if the cell is not one.

@@ -6,15 +6,15 @@
 #include "host/truth/files/body_choice.hpp"
 #include "host/truth/files/body_track.hpp"
 
-/// Recordings of trackers as text, whatever program wrote them. What is at hand is recognised by its content;
-/// names of files do not matter.
+/// Recordings of trackers as text, whatever program wrote them. The format is recognised by the content; file
+/// names do not matter.
 namespace astro::truth {
 
 /// The format of a text by its first lines; FileKind::unknown if it is none that can be read.
 FileKind recognise(std::string_view text);
 
-/// The bodies in a recording. Formats of a single body without a name give one with an empty name.
-/// Throws astro::Error with the format's reader's reasons, or if the format is unknown.
+/// The bodies in a recording. Formats of a single body without a name give one with an empty name. Throws
+/// astro::Error with the reason of the format's reader, or if the format is unknown.
 std::vector<BodyName> bodies_in(std::string_view text, std::string_view file);
 
 /// The track of a body; `body` may be empty if there is only one. Samples are marked as invalid only where the

@@ -6,9 +6,10 @@
 
 /// Trajectories of one body as the benchmarks TUM RGB-D and EuRoC write them.
 ///
-/// TUM    seconds x y z qx qy qz qw, apart by blanks, tabs or commas; lines that begin with # are comments.
-/// EuRoC  nanoseconds,x,y,z,qw,qx,qy,qz and perhaps more, apart by commas. It is recognised by its first row:
-///        the time is a whole number of at least 15 digits.
+/// TUM    seconds x y z qx qy qz qw, separated by blanks, tabs or commas; lines that begin with # are
+///        comments.
+/// EuRoC  nanoseconds,x,y,z,qw,qx,qy,qz and perhaps more, separated by commas. It is recognised by its first
+///        row: the time is a whole number of at least 15 digits.
 ///
 /// Times are exact to the nanosecond. Metres.
 namespace astro::truth {

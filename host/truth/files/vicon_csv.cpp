@@ -14,7 +14,7 @@
 namespace astro::truth {
 namespace {
 
-/// The mean square of the angle by which the poses lean away from turning about one axis, the best of three.
+/// The mean squared tilt of the poses against a pure turn about one axis, for the best of the three axes.
 template <class RotationAt>
 double mean_tilt(const std::vector<TrackedPose>& samples, RotationAt rotation_at) {
   const auto first = std::find_if(samples.begin(), samples.end(), [](const auto& s) { return s.valid; });

@@ -10,9 +10,9 @@
 ///
 /// Layout    sections that end with a blank line: title, rate, names (each above the first of its columns), axes,
 ///           units, data. Bodies are in the sections Objects, Segments and Joints; the others are passed over.
-/// Rotation  a quaternion, or three numbers that are a rotation vector (Tracker's default, "helical") or Euler
-///           angles XYZ; the header does not say which. A robot does not tilt, so the reading with the smaller
-///           tilt is taken, and facts.rotation says so. Rotation vectors run on beyond half a turn.
+/// Rotation  a quaternion, or three numbers that are a rotation vector (Tracker's default, "helical") or Euler angles XYZ;
+///           the header does not say which. A robot does not tilt, so the reading with the smaller tilt is taken, and
+///           facts.rotation says so. Rotation vectors may be longer than half a turn.
 /// Times     (frame - first frame) / rate. Rows with a sub-frame are passed over.
 /// Lost      empty cells, or a row that ends early.
 namespace astro::truth {

@@ -56,11 +56,12 @@ Direction3 known_up(const BodyTrack& track, const FloorChoices& choices, FloorFi
       FloorProblem::no_up_axis, {track.name});
 }
 
-/// Positions in the plane, headings about its normal.
+/// Projects positions onto a plane, and measures headings about its normal.
 class Plane {
  public:
   explicit Plane(const Direction3& up) : up_(up[0], up[1], up[2]) {
-    // The x axis stays where it is as far as it lies in the plane, so that y-up and z-up give the usual frames.
+    // The plane's x axis is the projection of the frame's x axis, so that y-up and z-up give the usual
+    // frames; if x is nearly vertical, it is that of the y axis.
     const Eigen::Vector3d x = std::abs(up_[0]) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
     ahead_ = (x - up_ * up_.dot(x)).normalized();
     left_ = up_.cross(ahead_);
@@ -76,7 +77,8 @@ class Plane {
   Eigen::Vector3d up_, ahead_, left_;
 };
 
-/// The valid samples; times from the first sample, because an epoch time has no digits to spare.
+/// The valid samples. Times count from the first sample, because a double has too few digits for an epoch
+/// time.
 std::vector<FloorPoint> points_of(const BodyTrack& track, const Direction3& up) {
   const Plane plane(up);
   const bool turns = track.facts.rotation_kind != RotationKind::none;
@@ -156,7 +158,8 @@ void settle_units(std::vector<FloorPoint>& points, const BodyTrack& track,
          {fmt::format("{:.4g}", findings.length_ratio)}});
 }
 
-/// Of the heading's turning with the wheels', or of the path's where there are no headings.
+/// The correlation of the wheels' turning with that of the headings, or with that of the path if there are no
+/// headings.
 double correlation_with(const std::vector<FloorPoint>& points, const Turning& wheels,
                         const ClockMatch& clock) {
   const auto with = [&](const Turning& own) {
@@ -171,7 +174,7 @@ double correlation_with(const std::vector<FloorPoint>& points, const Turning& wh
 void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMotion> wheels,
                       FloorFindings& findings) {
   constexpr double kSure = 0.3;
-  // A wrong unit would hide the turning behind the speed.
+  // With a wrong unit the speeds would outweigh the turn rates.
   const double to_metres = findings.length_factor == 1 ? 1 / findings.unit_ratio : 1;
   findings.clock = match_clocks(points, to_metres, wheels);
   if (!findings.clock) {

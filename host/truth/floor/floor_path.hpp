@@ -11,18 +11,18 @@
 #include "host/truth/floor/up_axis.hpp"
 #include "host/truth/floor/wheel_match.hpp"
 
-/// From a track in space to the robot's path on the floor. What a recording does not state is inferred from the
-/// motion, reported, and can be overridden.
+/// Converts a track in space to the robot's path on the floor. What a recording does not state is inferred from the motion,
+/// reported, and can be overridden.
 namespace astro::truth {
 
 /// Why a track cannot be placed on the floor. The first value is its name; of frames_differ the normal of the
 /// positions, the axis of the rotations and the degrees between them follow.
 enum class FloorProblem { frames_differ, no_up_axis };
 
-/// What looks odd in it. The value is how many times its path is as long as that of the wheels.
+/// What looks odd in a track. The value is the length of its path over that of the wheels.
 enum class FloorRemark { units_differ };
 
-/// What a person knows better. Without a value it is inferred.
+/// What a person states. What has no value is inferred.
 struct FloorChoices {
   std::optional<Direction3> up;         // in the file's axes; need not have length 1
   std::optional<double> length_factor;  // metres for each metre of the track
@@ -48,7 +48,7 @@ struct FloorFindings {
   /// The path turns left where the orientation turns right: one of the two is a mirror image, so the positions
   /// were reflected.
   bool mirrored = false;
-  double handedness = 0;  // that shows it, before the reflection (wheel_match.hpp)
+  double handedness = 0;  // the measure of that, before the reflection (wheel_match.hpp)
 
   double path_m = 0;
   double turned_rad = 0;  // from the first to the last valid sample; NaN without headings
@@ -56,7 +56,7 @@ struct FloorFindings {
   /// Only with wheels.
   std::optional<ClockMatch> clock;
   double wheels_path_m = 0;
-  double turning_correlation = 0;  // with the wheels' turning, of the path that is returned
+  double turning_correlation = 0;  // of the returned path's turning with the wheels'
   double length_ratio = 0;  // path of the track over path of the wheels, before any factor; 0: not known
   /// 1000, 100, 0.01 or 0.001 if the ratio is near it, else 1: one of the two has a wrong unit of length.
   double unit_ratio = 1;
@@ -66,14 +66,14 @@ struct FloorFindings {
 };
 
 struct FloorPath {
-  /// In a right-handed frame whose z axis points up. theta continuous; NaN if the track has no rotations.
-  /// Times are microseconds of the recording's own clock.
+  /// The frame is right-handed, and its z axis points up. theta is continuous; NaN if the track has no rotations. Times are
+  /// microseconds of the recording's own clock.
   std::vector<recording::TruthSample> samples;
   FloorFindings findings;
 };
 
-/// Heading: the turn about the up axis that remains when the tilt is taken away, so tilt and the sign of a
-/// quaternion change nothing.
+/// Places a track on the floor. The heading is the turn about the up axis that remains without the tilt, so that tilt and the
+/// sign of a quaternion change nothing.
 ///
 /// Units    a ratio near 1000, 100, 0.01 or 0.001 between the paths is corrected where the file states no unit;
 ///          where it states one, it is only reported, because the wheels may be wrong as well.

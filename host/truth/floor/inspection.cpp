@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t kWindow_ns = 500'000'000;
 constexpr std::size_t kFewestSamples = 8;
 
-/// x, y, z and the rotation against the window's first sample as a vector.
+/// x, y, z, and the rotation relative to the window's first sample as a vector.
 using Coordinates = std::array<double, 6>;
 
 Coordinates coordinates_of(const Pose3& pose, const Pose3& first) {
@@ -24,7 +24,7 @@ Coordinates coordinates_of(const Pose3& pose, const Pose3& first) {
   return {pose.x_m, pose.y_m, pose.z_m, sign * q.x, sign * q.y, sign * q.z};
 }
 
-/// Sums of a window, whole and in halves.
+/// Statistics of a window. The variance is about the mean of each half.
 struct Window {
   std::size_t count = 0;
   Coordinates variance{};
@@ -74,18 +74,18 @@ std::vector<Window> windows_of(const std::vector<TrackedPose>& samples) {
   return out;
 }
 
-/// The mean squared spread of the stillest windows, by which a rest is recognised.
+/// The variance of the position that 5 % of the windows stay below, by which a rest is recognised.
 double stillest_spread(const std::vector<Window>& windows) {
   std::vector<double> spreads;
   for (const Window& w : windows) spreads.push_back(w.variance[0] + w.variance[1] + w.variance[2]);
   return at_rank(std::move(spreads), windows.size() / 20);
 }
 
-/// Standard deviations within windows of half a second in which the body does not move more than its noise lets
-/// expect, about the mean of each window, so that a slow drift of the tracker does not count.
-/// Nothing if there is no second of rest.
+/// The standard deviations in windows of half a second in which the body moves no more than its noise
+/// explains. They are about the mean of each half of a window, so that a slow drift of the tracker does not
+/// count. Nothing if all rests together are shorter than a second.
 ///
-/// A body that was glued to the same numbers (invalid samples) does not count as at rest.
+/// A stretch in which the tracker repeats the same numbers (invalid samples) is no rest.
 std::optional<RestNoise> find_rest_noise(const BodyTrack& track) {
   constexpr double kMoved = 6, kSpread = 9;  // standard errors; ratio of variances
   constexpr double kSlow_m = 5e-4;           // in half a window: 2 mm/s

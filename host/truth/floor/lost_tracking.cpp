@@ -30,7 +30,7 @@ double seconds_between(const TrackedPose& a, const TrackedPose& b) {
   return 1e-9 * static_cast<double>(b.time_ns - a.time_ns);
 }
 
-/// The last digit of each value: the smallest change between neighbours. A nanometre at least, because the
+/// The last digit of each value: the smallest change between neighbours. Changes below a nanometre do not count, because the
 /// conversion of units rounds.
 Values last_digits(const Samples& samples) {
   Values digits;
@@ -46,7 +46,7 @@ Values last_digits(const Samples& samples) {
   return digits;
 }
 
-/// Whether a value changes by more than its last digit, which rounding alone can do.
+/// Whether a value changes by more than one last digit, because rounding alone can change it by one.
 bool changes_beyond(const Values& digits, const Pose3& from, const Pose3& to) {
   const Values a = values_of(from), b = values_of(to);
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -91,7 +91,7 @@ std::size_t mark_repeated(Samples& samples, const Values& digits, bool noisy) {
   return marked;
 }
 
-/// The origin without a turn, which trackers send for a body that they do not see.
+/// Marks samples at the origin without a rotation, which trackers send for a body that they do not see.
 std::size_t mark_at_zero(Samples& samples) {
   constexpr double kElsewhere_m = 0.05;
   const auto at_origin = [](const TrackedPose& s) {
@@ -117,8 +117,8 @@ std::size_t mark_at_zero(Samples& samples) {
   return marked;
 }
 
-/// By how many of its last digits the sample lies off the straight line between its neighbours, per coordinate;
-/// infinite if the three are not one apart in time.
+/// The second difference of a sample and its neighbours in last digits, per coordinate, which is 0 on a straight line;
+/// infinite if one of the three is invalid or they are not evenly spaced in time.
 std::array<double, 3> bend(const Samples& samples, std::size_t i, const Values& digits) {
   const TrackedPose &a = samples[i - 1], &b = samples[i], &c = samples[i + 1];
   const std::int64_t uneven = (c.time_ns - b.time_ns) - (b.time_ns - a.time_ns);
@@ -133,7 +133,7 @@ std::array<double, 3> bend(const Samples& samples, std::size_t i, const Values& 
   return bends;
 }
 
-/// Whether the bends are of the tracker's noise: those of white noise change their sign from sample to sample in
+/// Decides whether the bends come from the tracker's noise. Bends of white noise change their sign from sample to sample in
 /// 73 % of the cases, those of a smooth motion hardly ever.
 class NoiseCheck {
  public:

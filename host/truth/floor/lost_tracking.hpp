@@ -16,12 +16,12 @@ struct LostSamples {
   std::size_t all() const { return absent + at_zero + repeated + filled; }
 };
 
-/// Marks them as invalid. No pose is changed, and nothing is interpolated. Marked twice gives the same track, with
-/// all counted as absent.
+/// Marks them as invalid. No pose is changed, and nothing is interpolated. If a track is marked twice, it stays the same, and
+/// the second call counts all as absent.
 ///
-/// Repeated  counts only if the body moves by more than 2 cm/s or 10 degrees/s across the repetition and the
-///           pose changes by more than the last digit afterwards: a body at rest may well give the same numbers
-///           twice. At the end of a track three or more repetitions behind a motion count, if the track has noise.
+/// Repeated  counts only if the body moves by more than 2 cm/s or 10 degrees/s across the repetition and the pose changes by
+///           more than the last digit afterwards: a body at rest may well give the same numbers twice. At the end of a track,
+///           three or more repetitions after a motion count if the track has noise.
 /// Filled    counts in stretches of at least 8 samples, and only if the rest of the track has noise of at least 8
 ///           times the last digit: a simulator's truth without noise moves in straight lines by itself.
 /// Signs     q and -q are the same rotation, so a change of sign is no loss.

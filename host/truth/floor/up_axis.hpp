@@ -25,11 +25,11 @@ struct UpAxisEvidence {
   double disagreement_rad = 0;  // between the two, if there are both; 0 to pi / 2
 };
 
-/// Both axes point to where their largest component is positive: whether that is up or down, positions and
-/// rotations cannot show. Uses valid samples only.
+/// The largest component of both axes is positive, because positions and rotations cannot show whether an
+/// axis points up or down. Uses valid samples only.
 UpAxisEvidence find_up_axis(const BodyTrack& track);
 
-/// More than this is no measurement error: positions and orientations are in different frames.
+/// A larger disagreement is no measurement error: positions and orientations are in different frames.
 inline constexpr double kLargestDisagreement_rad = 0.09;  // 5 degrees
 
 }  // namespace astro::truth

@@ -39,8 +39,8 @@ std::vector<FloorPoint> places_of(std::span<const FloorPoint> points) {
   return out;
 }
 
-/// How closely the direction of the path keeps to one in the body's frame, 0 to 1, for positions as they are (sign 1)
-/// or reflected (-1). `fold` 2 counts forward and backward as the same.
+/// How closely the path keeps to one direction in the body's frame, 0 to 1, for positions as they are (sign 1) or reflected
+/// (-1). `fold` 2 counts forward and backward as the same.
 double concentration(const std::vector<FloorPoint>& places, double sign, double fold) {
   std::complex<double> sum = 0;
   double length = 0;
@@ -200,14 +200,14 @@ double path_length(std::span<const WheelMotion> wheels) {
 std::optional<ClockMatch> match_clocks(std::span<const FloorPoint> points, double metres_per_unit,
                                        std::span<const WheelMotion> wheels) {
   if (points.size() < 10 || wheels.size() < 10) return std::nullopt;
-  // No drive is longer than a day; a recording that is has a wrong time in it.
+  // A recording that is longer than a day has a wrong time in it, because no drive is that long.
   constexpr double kLongest_s = 86'400;
   if (points.back().time_s - points.front().time_s > kLongest_s ||
       wheels.back().time_s - wheels.front().time_s > kLongest_s)
     return std::nullopt;
   calibration::Trajectory run;
   run.wheels = travel_of(wheels);
-  // All points of 7 minutes at 240 Hz; of an hour 28 in a second, which show as much in bins of 50 ms.
+  // This takes all points of 7 minutes at 240 Hz. Of an hour it takes 28 per second, which are enough for bins of 50 ms.
   constexpr std::size_t kMostPoints = 100'000;
   const std::size_t stride = points.size() / kMostPoints + 1;
   run.truth.reserve(points.size() / stride + 1);

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-/// A path on the floor as points: its length, how it turns, and whether positions and headings fit together; and what the robot's
-/// wheels know about it: the unit of length, the offset of the clocks, and
-/// whether left and right are exchanged.
+/// A path on the floor as points: its length, how it turns, and whether positions and headings fit together; and what the
+/// robot's wheels show: the unit of length, the offset of the clocks, and whether left and right are exchanged.
 namespace astro::truth {
 
 /// A position with a heading, NaN without one.
@@ -22,9 +21,9 @@ struct TurningSample {
 };
 using Turning = std::vector<TurningSample>;
 
-/// The direction in which the points go, between places that are a hundredth of the path's extent apart.
-/// `both_ways`: the robot also drives backward, which is the same direction; then a turn by more than a right angle
-/// between two places is misread.
+/// The direction in which the points go, between places that are a hundredth of the path's extent apart. `both_ways`: the
+/// robot also drives backward, so opposite directions count as the same. Then a turn by more than a right angle between two
+/// places is misread.
 Turning path_turning(std::span<const FloorPoint> points, bool both_ways);
 
 /// The heading at times that are at least 0.2 s apart, because noise of single samples would hide a slow turn.
@@ -33,9 +32,9 @@ Turning heading_turning(std::span<const FloorPoint> points);
 /// The length between places that are a hundredth of the extent apart, so that noise at rest does not count.
 double path_length(std::span<const FloorPoint> points);
 
-/// Whether positions and headings have the same handedness, -1 to 1. A robot goes in a direction that is fixed in its
-/// own frame: the measure is by how much better that holds for the positions as they are than for their mirror image.
-/// About 0 if the drive does not show it: a straight line, or positions without headings.
+/// Whether positions and headings have the same handedness, -1 to 1. A robot drives in a direction that is fixed in its own
+/// frame. The measure is how much better that holds for the positions as they are than for their mirror image. About 0 if the
+/// drive does not show it: a straight line, or positions without headings.
 double handedness(std::span<const FloorPoint> points);
 
 /// The motion of the robot by its wheels at a time of its own clock.
@@ -45,8 +44,8 @@ struct WheelMotion {
   double yaw_rate_radps = 0;  // counter-clockwise positive
 };
 
-/// How alike two angles turn, -1 to 1: the correlation of their changes between the samples of `a`, not about the
-/// means, so that a steady turn counts. `shift_s` is added to the times of `a`. 0 where nothing overlaps or turns.
+/// How similarly two angles turn, -1 to 1: the correlation of their changes between the samples of `a`. The means are not
+/// subtracted, so that a steady turn counts. `shift_s` is added to the times of `a`. 0 if nothing overlaps or turns.
 double turning_correlation(const Turning& a, const Turning& b, double shift_s = 0, double skew = 0,
                            double middle_s = 0);
 
@@ -62,9 +61,9 @@ struct ClockMatch {
   double correlation = 0;  // of the motions, without regard to the direction of turning
 };
 
-/// Searches all offsets (calibration::search_clock) by speeds and turn rates. If the robot turned, the offset is then
-/// set to where the turning alone agrees best, because the speed of a body beside the axle is not that of the wheels.
-/// Nothing if the streams hold no common motion, or one of them is longer than a day. `metres_per_unit`: of the points' positions.
+/// Searches all offsets (calibration::search_clock) by speeds and turn rates. If the robot turned, the offset is then refined
+/// by the turning alone, because a body that is not on the axle has another speed than the wheels. Nothing if the streams
+/// hold no common motion, or one of them is longer than a day. `metres_per_unit`: of the points' positions.
 std::optional<ClockMatch> match_clocks(std::span<const FloorPoint> points, double metres_per_unit,
                                        std::span<const WheelMotion> wheels);
 

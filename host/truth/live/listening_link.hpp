@@ -15,12 +15,12 @@
 
 namespace astro::truth {
 
-/// A link that a thread of its own works, so that each pose has the time at which it came, however seldom somebody takes
-/// poses, and so that the tracker is served while a person is asked something.
+/// Runs a link on its own thread, so that each pose is stamped when it arrives, however seldom somebody takes poses, and so
+/// that the tracker is served while a person is asked something.
 ///
 /// Life     the thread begins in the constructor and ends in the destructor. Only it uses the inner link meanwhile.
 /// Calls    from one thread. All that they return is as of the last work(), which throws what the inner link threw.
-/// Bounds   of poses that nobody takes the newest some thousand are kept, and none from before a new connection.
+/// Bounds   if nobody takes poses, some thousand of the newest are kept, and none from before a new connection.
 class ListeningLink : public TrackerLink {
  public:
   using Now = std::function<std::chrono::microseconds()>;

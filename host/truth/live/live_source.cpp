@@ -28,7 +28,8 @@ constexpr std::size_t kMostRecent = 4096;
 constexpr microseconds kGone = seconds(10);
 constexpr microseconds kStep = milliseconds(20);
 
-// Of what the network has kept while nobody polled: minutes. A tracker that sends without end cannot keep us.
+// The most rounds of reading in one call. They are enough for what the network has buffered in minutes, and a
+// tracker that sends without end cannot block us.
 constexpr int kMostRounds = 64;
 
 }  // namespace
@@ -61,7 +62,8 @@ void LiveSource::begin_run() {
   up_axis_.forget();  // somebody may have carried the body until now
 }
 
-/// What the system has kept while nobody listened shows neither that poses come now nor how late they are.
+/// Waits for poses, and chooses the clock. What the system has buffered before is read first, because it
+/// shows neither that poses come now nor how late they are.
 void LiveSource::listen(Need need) {
   const microseconds begin = now_();
   mapped_ = false;
@@ -124,10 +126,11 @@ void LiveSource::remember(const Stamp& stamp) {
 void LiveSource::expect_another_clock() {
   recent_.clear();
   held_.clear();
-  mapped_ = mapped_ && !clock_->is_senders();  // times of arrival are not concerned
+  mapped_ = mapped_ && !clock_->is_senders();  // arrival times do not use the sender's clock
 }
 
-/// Once enough samples of the sender's other clock have come, so that the shortest delay is among them.
+/// Continues the mapping once enough samples of the sender's other clock have come, so that the shortest
+/// delay is among them.
 void LiveSource::settle(microseconds now) {
   if (mapped_ || recent_.empty() || now.count() - recent_.front().arrival_us < kSettling.count()) return;
   clock_->continue_with(std::vector<Stamp>(recent_.begin(), recent_.end()));
@@ -144,7 +147,8 @@ void LiveSource::begin_counting() {
   counting_from_ = now_();
 }
 
-/// What came while this program was stopped comes at once, so the rate is that since the run's beginning.
+/// Poses that came while this program was stopped are read all at once, so the rate is averaged since the
+/// beginning of the run.
 void LiveSource::require_possible_rate() {
   constexpr std::int64_t kMostPerSecond = 10'000, kMostAtOnce = 100'000;
   const std::int64_t passed_s = std::chrono::duration_cast<seconds>(now_() - counting_from_).count();
@@ -154,7 +158,7 @@ void LiveSource::require_possible_rate() {
                 LiveProblem::too_many_poses, {url_.place(), std::to_string(kMostPerSecond)});
 }
 
-/// Datagrams may overtake each other; the later ones of them are left out.
+/// Datagrams may overtake each other; a sample that is older than the last one is left out.
 void LiveSource::pass_on(const Heard& heard) {
   recording::TruthSample sample = heard.sample;
   sample.time_us = clock_->host_time_us(heard.stamp);

@@ -19,15 +19,15 @@ namespace astro::truth {
 
 /// Why no ground truth comes, or cannot be taken. The first value is the tracker's place.
 enum class LiveProblem {
-  tracker_silent,  // then what its link says, and of a silence within a run the seconds
-  poses_ended,     // then the body, and of a silence within a run the seconds
+  tracker_silent,  // then why, as its link says it, and for a silence within a run its seconds
+  poses_ended,     // then the body, and for a silence within a run its seconds
   body_unseen,     // the same
   several_bodies,  // then their names
-  too_many_poses   // then how many a second can be
+  too_many_poses   // then how many per second are possible
 };
 
 /// The link for the URL's scheme. Throws astro::Error if the host's name is unknown, or if a variable of ROS 2 in the
-/// environment has a value that cannot be.
+/// environment has an impossible value.
 std::unique_ptr<TrackerLink> open_link(const TrackerUrl& url);
 
 /// A tracker on the network as a source of ground truth. Its times are on this computer's steady clock, and never run
@@ -49,7 +49,7 @@ class LiveSource : public Source {
   using Now = std::function<std::chrono::microseconds()>;
   static std::chrono::microseconds steady_now();
 
-  /// Over a ListeningLink, so that poses have the times at which they came, and not those at which they are polled.
+  /// Uses a ListeningLink, so that poses are stamped when they arrive, and not when they are polled.
   explicit LiveSource(const TrackerUrl& url);
   /// Throws astro::Error that says why no pose comes, or which bodies there are if none was named.
   LiveSource(TrackerUrl url, std::unique_ptr<TrackerLink> link, Now now);

@@ -20,9 +20,9 @@ namespace {
 constexpr microseconds kCommandPeriod =
     seconds(1);  // a server drops a client that it has not heard for some seconds
 constexpr microseconds kSilence = seconds(3);  // without any datagram
-constexpr int kMostDatagrams = 256;            // of one call, so that a server cannot keep us
+constexpr int kMostDatagrams = 256;            // of one call, so that a server cannot block us
 
-/// At the address by which this computer reaches the server.
+/// A socket at the address by which this computer reaches the server.
 net::Socket command_socket(const net::Address& server) {
   return net::bind_udp(net::Address::local(net::connect_udp(server)).with_port(0));
 }
@@ -110,7 +110,7 @@ NatNetLink::NatNetLink(const TrackerUrl& url)
 NatNetLink::NatNetLink(const TrackerUrl& url, const std::vector<net::Address>& servers)
     : url_(url.with_usual_port(natnet::kCommandPort)), servers_(reachable(servers)), stream_(url_.body) {}
 
-/// Without those that this computer has no route to, as to an address of IPv6 where only IPv4 is set up.
+/// Leaves out servers to which this computer has no route, such as an IPv6 address where only IPv4 is set up.
 std::vector<NatNetLink::Server> NatNetLink::reachable(const std::vector<net::Address>& servers) {
   std::vector<Server> reachable;
   std::optional<Error> failure;
@@ -167,7 +167,7 @@ void NatNetLink::note_elsewhere(const net::Datagram& datagram) {
   elsewhere_ = datagram.from.host();
 }
 
-/// Without its own socket for data there may still be frames at the other one.
+/// If the socket for data cannot be opened, frames may still come to the other one.
 void NatNetLink::open_data() {
   const natnet::ServerInfo& info = *stream_.server();
   multicast_ = info.multicast;

@@ -23,15 +23,15 @@ class NatNetStream {
   /// `body`: its name in Motive; "": the one that is seen first.
   explicit NatNetStream(std::string body) : body_(std::move(body)) {}
 
-  /// One datagram. What is none of NatNet is ignored.
+  /// Takes one datagram. Datagrams of other protocols are ignored.
   void push(ByteView datagram, std::int64_t arrival_us);
 
-  /// Since the last call, oldest first.
+  /// The poses since the last call, oldest first.
   std::vector<Sighting> take() { return sightings_.take(); }
 
   /// Nothing until the server has answered: frames cannot be understood before.
   const std::optional<natnet::ServerInfo>& server() const { return server_; }
-  /// A frame has come whose bodies have no names yet: the models have to be asked for.
+  /// Whether a frame has come whose bodies have no names yet, so that the models have to be requested.
   bool needs_names() const { return needs_names_; }
 
   bool has_frames() const { return frames_; }
@@ -53,11 +53,11 @@ class NatNetStream {
   Waiting<Sighting> sightings_;
 };
 
-/// A NatNet server, by UDP. It is asked until it answers, tells then whether it sends to this computer alone
-/// or to a multicast group, and is told each second that somebody listens. Clients disagree to which of our
-/// two sockets a server sends its frames to this computer alone, so both are read. Of a host with several addresses
-/// each is asked in turn until one answers. Frames from any other address are not read but counted: they may be those
-/// of another server, or of a second network card of this one.
+/// Connects to a NatNet server by UDP. The server is asked until it answers. Its answer says whether it sends to this
+/// computer alone or to a multicast group. Then it is told each second that somebody listens. If it sends to this computer
+/// alone, clients disagree on which of our two sockets gets the frames, so both are read. If a host has several addresses,
+/// each is asked in turn until one answers. Frames from any other address are counted but not read, because they may come
+/// from another server, or from a second network card of this one.
 class NatNetLink : public TrackerLink {
  public:
   /// Throws astro::Error if the host's name is unknown or no socket can be made.

@@ -100,8 +100,8 @@ void RosLink::read(microseconds now) {
   }
 }
 
-/// A publisher that starts anew is another one, and its first poses follow the last of the other. Poses that take turns
-/// are of two.
+/// A publisher that restarts appears as another one, whose first poses follow the last ones of the old publisher. If poses of
+/// two publishers alternate, both are running.
 bool RosLink::is_from_publisher(const Guid& writer, microseconds now) {
   if (publisher_ && publisher_ != writer && now - heard_at_ < kTakeOver) {
     if (std::exchange(heard_since_rival_, false)) ++rivals_;

@@ -16,20 +16,20 @@
 
 namespace astro::truth {
 
-/// Two publish the same poses. Values: the body, the topic, and both nodes.
+/// Two nodes publish the same poses. Values: the body, the topic, and both nodes.
 enum class TopicProblem { two_publishers };
 
 /// A topic of ROS 2 with the robot's poses, over DDS. Its type is that under which somebody publishes it: PoseStamped,
 /// PoseWithCovarianceStamped and TransformStamped of geometry_msgs, nav_msgs/Odometry, or the transforms of tf2_msgs/TFMessage,
 /// with the fixed ones of the same topic with "_static" behind its name.
 ///
-/// It listens as best effort, which publishers of both kinds serve: a pose that is lost is late anyway.
+/// It subscribes with best effort, which publishers of both reliabilities serve. A lost pose would come too late anyway.
 ///
 /// One publisher at a time: another one takes over once the first has been silent for half a second. work() throws if two
 /// publish the same body at once, or if the poses are no ground truth.
 class RosLink : public TrackerLink {
  public:
-  /// In the domain and range that the URL names, or else the environment. Throws astro::Error if that cannot be.
+  /// Uses the domain and range that the URL names, or else the environment. Throws astro::Error if these are impossible.
   explicit RosLink(const TrackerUrl& url);
   RosLink(const TrackerUrl& url, const dds::Discovery& discovery);
 

@@ -16,9 +16,9 @@ struct Sighting {
   bool tracked = true;  // as far as the tracker says
 };
 
-/// What came of a body and waits to be taken, oldest first.
+/// Holds what came of a body until it is taken, oldest first.
 ///
-/// Bounds  some thousand: of what nobody takes the newest are kept, however fast the tracker sends.
+/// Bounds  some thousand. If nobody takes them, the newest are kept, however fast the tracker sends.
 template <class T>
 class Waiting {
  public:

@@ -23,8 +23,8 @@ std::vector<double> intervals_of(std::span<const std::int64_t> times_us) {
 
 double periods_in(double interval, double period) { return std::max(1.0, std::round(interval / period)); }
 
-/// The mean, if frames come in bursts. Otherwise missing frames would make the mean longer, so the periods are
-/// counted by the median.
+/// The mean interval, if frames come in bursts. Otherwise missing frames would make the mean too long, so
+/// periods are counted by the median interval.
 double period_of(const std::vector<double>& intervals, double span) {
   const double mean = span / static_cast<double>(intervals.size()), median = median_of(intervals);
   if (median < mean / 2) return mean;
@@ -33,7 +33,8 @@ double period_of(const std::vector<double>& intervals, double span) {
   return span / periods;
 }
 
-/// Whether the sender's stamps pass at about the rate of time: they may be frame numbers, or in other units.
+/// Whether the sender's stamps grow at about the rate of arrival. They may also be frame numbers or have
+/// other units.
 bool counts_seconds(const Regularity& sender, const Regularity& arrival) {
   constexpr double kMostRatio = 1.5;
   return sender.period_s > 0 && sender.period_s < kMostRatio * arrival.period_s &&

@@ -24,14 +24,13 @@ struct Regularity {
 /// in bursts do: an interval has at least one period.
 Regularity regularity_of(std::span<const std::int64_t> times_us);
 
-/// Puts samples onto this computer's steady clock: by the sender's times, unless those of arrival are far more
-/// regular, as where a server stamps by a coarse clock. In doubt the sender's: the arrival may be regular in
-/// the moment of choosing and be late once the network or this computer is busy.
+/// Maps samples to this computer's steady clock. It uses the sender's times, unless those of arrival are far more regular,
+/// for example because a server stamps by a coarse clock. In doubt it uses the sender's, because arrival may be regular when
+/// the choice is made, and late once the network or this computer is busy.
 ///
-/// A sender's clock is mapped by a constant: the smallest delay among the first samples counts as none. What
-/// is left of the network's shortest delay, and the drift between two quartz clocks in either direction, are found
-/// with the offset and the skew of each run by the calibration. So the mapping changes only if the sender's clock
-/// itself has jumped, and then so that the times go on as if it had not.
+/// A sender's clock is mapped by a constant offset: the smallest delay among the first samples counts as 0. The calibration
+/// finds the rest of the delay, and the drift between the two clocks, as the offset and the skew of each run. So the mapping
+/// changes only if the sender's clock itself has jumped, and then so that the times go on as if it had not.
 class TrackerClock {
  public:
   /// Precondition: at least one stamp.
@@ -45,20 +44,20 @@ class TrackerClock {
     return senders_ ? stamp.sender_us + delay_us_ : stamp.arrival_us;
   }
 
-  /// To be asked of each stamp in turn: false if the sender's clock has jumped by more than 0.1 s since the last one.
-  /// Samples that the network holds back are no jump.
+  /// To be called for each stamp in turn. False if the sender's clock has jumped by more than 0.1 s since the last one.
+  /// Samples that the network delays are no jump.
   bool follows(const Stamp& stamp);
-  /// The sender's clock may be another one from the next stamp on.
+  /// To be called if the sender's clock may be another one from the next stamp on.
   void restart();
-  /// After a jump or a restart: the first stamps since then. If it is the same clock within 0.1 s, the mapping stays;
-  /// otherwise the smallest delay among them takes the place of the smallest one before.
-  /// Precondition: at least one stamp.
+  /// To be called after a jump or a restart, with the first stamps since then. If it is the same clock within 0.1 s, the
+  /// mapping stays; otherwise the smallest delay among them takes the place of the smallest one before. Precondition: at
+  /// least one stamp.
   void continue_with(std::span<const Stamp> next);
 
  private:
   Regularity sender_, arrival_;
   bool senders_ = false;
-  std::int64_t delay_us_ = 0;  // arrival minus sender of a sample that has none: the mapping
+  std::int64_t delay_us_ = 0;  // arrival minus sender of a sample without delay: the mapping
   std::int64_t least_us_ = 0;  // arrival minus sender of the fastest samples by now, so it drifts
   std::optional<std::int64_t>
       mapped_least_us_;  // the same of the clock that is mapped, if there is another one since

@@ -9,8 +9,8 @@
 
 namespace astro::truth {
 
-/// A connection to a tracker that keeps itself up: it connects, asks for what it needs and connects again.
-/// Never waits, except wait().
+/// A connection to a tracker. It connects, requests what it needs, and reconnects by itself. Only wait()
+/// blocks.
 class TrackerLink {
  public:
   TrackerLink() = default;

@@ -33,7 +33,7 @@ enum class UrlProblem {
 ///
 /// A character that has a meaning here is written as %XX in the names of bodies and frames. An IPv6 address stands in
 /// brackets. A topic of ROS 2 has no host. Which node publishes it, and where, ROS 2 finds out by itself: in the domain and
-/// on the computers that the environment names, unless the address says others (host/live/dds/discovery.hpp).
+/// on the computers that the environment names, unless the address names others (host/live/dds/discovery.hpp).
 struct TrackerUrl {
   std::string scheme, host;
   std::uint16_t port = 0;  // 0: the protocol's own

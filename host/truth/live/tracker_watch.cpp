@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMostSeen = 30'000;  // of the fastest tracker in the usual span
 
-/// Whether the mean of a body that stands still could have moved this far, and the scatter about the means of
-/// the first and the second half.
+/// The scatter about the means of the first and the second half, and whether these means differ no more than
+/// for a body that stands still.
 struct Scatter {
   double deviation = 0;
   bool stands = false;
@@ -56,7 +56,7 @@ void TrackerWatch::take(const Sighting& sighting) {
 
 std::optional<LiveNoise> TrackerWatch::rest() const {
   constexpr std::size_t kFewest = 20;
-  constexpr double kGreatest_m = 0.01;  // no tracker is worse than this, and a robot that drives is
+  constexpr double kGreatest_m = 0.01;  // no tracker has more noise; a robot that drives scatters more
   std::vector<double> x_m, y_m, theta_rad;
   for (const Seen& seen : seen_) {
     if (!seen.pose) continue;

@@ -30,11 +30,11 @@ struct TrackerReport {
   std::optional<Remark> objection;  // to the axis that is taken for up, from all that was seen
 };
 
-/// Keeps the last few seconds of a tracker's poses and sums them up. Of a tracker that sends faster than any measures, the
-/// last 30,000 poses.
+/// Keeps the last few seconds of a tracker's poses and summarises them. If a tracker sends faster than any can measure, it
+/// keeps the last 30,000 poses.
 class TrackerWatch {
  public:
-  /// `span_us`: of the arrivals that count.
+  /// `span_us`: how long a pose counts after its arrival.
   explicit TrackerWatch(UpAxis up, std::int64_t span_us = 3'000'000)
       : up_(up), up_axis_(up), span_us_(span_us) {}
 

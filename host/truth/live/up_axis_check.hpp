@@ -11,18 +11,18 @@ namespace astro::truth {
 /// body rises.
 enum class UpAxisProblem { contradicted };
 
-/// Whether a body that drives on a floor shows that not the assumed axis of the tracker points up but the other one. A drive
-/// with the wrong axis has no use, and every drive before somebody notices is lost.
+/// Detects from a body that drives on a floor that not the assumed axis of the tracker points up but the other one. Drives
+/// that are recorded with the wrong axis are of no use, so it should be noticed early.
 class UpAxisCheck {
  public:
   explicit UpAxisCheck(UpAxis assumed) : assumed_(assumed) {}
 
-  /// The next pose of the body; it has to be a possible one.
+  /// Takes the next pose of the body, which has to be a possible one.
   void take(const Pose3& pose);
-  /// The body may be carried elsewhere before the next pose.
+  /// To be called if the body may be carried elsewhere before the next pose.
   void forget();
-  /// Once the body has been 0.3 m higher or lower than at first for a while, and never left its place along the other axis. A
-  /// robot that is picked up after a drive has left it.
+  /// Has a value once the body has been 0.3 m higher or lower than at first for a while, and has never moved along the other
+  /// axis. A robot that is picked up after a drive has moved along that axis.
   std::optional<Remark> objection() const;
 
  private:

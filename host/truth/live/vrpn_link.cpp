@@ -17,7 +17,7 @@ constexpr microseconds kConnectTimeout = milliseconds(1500);
 constexpr microseconds kAskPeriod = seconds(1);  // the upstream library's
 constexpr microseconds kAskTimeout = seconds(3);
 constexpr microseconds kRetry = seconds(1);
-// The most that one call reads, so that a server that sends faster than we read cannot keep us.
+// The most that one call reads, so that a server that sends faster than we read cannot block us.
 constexpr int kMostReads = 16;
 
 }  // namespace
@@ -74,7 +74,8 @@ void VrpnLink::begin_next(microseconds now) {
   ask(now);
 }
 
-/// The server calls back at the address that the datagram comes from, so the one named in it is for show.
+/// The server calls back at the address that the datagram comes from, so the address that is named in it has
+/// no effect.
 void VrpnLink::ask(microseconds now) {
   connection_ = {};
   try {

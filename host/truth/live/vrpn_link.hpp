@@ -12,10 +12,10 @@
 
 namespace astro::truth {
 
-/// A VRPN server, over TCP. Most serve whoever connects. If this one does not, it is asked by UDP to call back
-/// at a port of ours, as the upstream library does it; then this computer's firewall must let it in. Of a host with
-/// several addresses each is tried, because a server may listen at one of them only; all of them together take as long
-/// as one alone would.
+/// Connects to a VRPN server over TCP. Most servers serve anybody who connects. If this one does not, it is asked by UDP to
+/// connect back to a port of ours, as the upstream library does; then this computer's firewall must let it in. If a host has
+/// several addresses, each is tried, because a server may listen at only one of them. All of them together share the time-out
+/// of one.
 class VrpnLink : public TrackerLink {
  public:
   /// Throws astro::Error if the host's name is unknown.

@@ -23,7 +23,7 @@ class VrpnStream {
   /// Throws astro::Error, a clause that says what is wrong, if the other side does not speak VRPN.
   void push(ByteView bytes, std::int64_t arrival_us);
 
-  /// Since the last call, oldest first.
+  /// The poses since the last call, oldest first.
   std::vector<Sighting> take() { return sightings_.take(); }
 
   /// Why nothing has come of this body although the connection stands: a clause; "" if something has. Lists

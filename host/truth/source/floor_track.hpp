@@ -11,8 +11,8 @@ namespace astro::truth {
 /// A body's poses in space as samples on the floor: with headings that go on beyond half a turn, and marked
 /// as invalid where the tracker has lost the body.
 ///
-/// Lost  trackers show it in different ways: an impossible pose, or the last one again and again. Noise
-///       changes a measured pose from frame to frame, so one that is equal to the last digit is not measured.
+/// Lost  some trackers then send an impossible pose, others repeat the last one. Noise changes a measured
+///       pose from frame to frame, so a pose that is equal to the one before in every digit was not measured.
 class FloorTrack {
  public:
   explicit FloorTrack(UpAxis up) : up_(up) {}

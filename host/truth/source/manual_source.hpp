@@ -9,7 +9,8 @@
 
 namespace astro::truth {
 
-/// What answers a question: a value that is typed, or a sign that something was done. Whoever asks knows by which key.
+/// How a question is answered: by a value that is typed, or by a sign that something was done. The implementation of Ask
+/// chooses the key for that sign.
 enum class AnswerKind {
   value,
   right_or_entered_again,  // what was entered looks wrong: "y" if it is right
@@ -18,7 +19,7 @@ enum class AnswerKind {
   file_corrected_or_kept,  // the file that looks wrong is corrected, or is right as it is
 };
 
-/// What a person is asked. `occasion`, if it has a fact: why, and what would help; it goes before the text.
+/// What a person is asked. `occasion` says why, and what would help, unless it is empty; it goes before the text.
 struct Question {
   std::string text;
   Remark occasion = {};

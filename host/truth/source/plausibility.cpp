@@ -26,7 +26,7 @@ double length_m(const recording::Run& run) {
 
 double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
-/// What may have been meant, and how it is said.
+/// A pose that may have been meant, and its wording.
 struct Guess {
   Pose2 pose;
   std::string text;

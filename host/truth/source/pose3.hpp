@@ -5,7 +5,7 @@
 
 #include "host/base/pose2.hpp"
 
-/// Poses in space, as trackers give them, and what of them a robot on a floor needs.
+/// Poses in space as trackers give them, and the part of them that a robot on a floor needs.
 namespace astro::truth {
 
 /// A body's pose in the tracker's frame: metres, and a quaternion that need not be exactly of length 1.

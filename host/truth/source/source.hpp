@@ -20,8 +20,8 @@ class Source {
   Source& operator=(const Source&) = delete;
   virtual ~Source() = default;
 
-  /// Before a run, while the robot stands and is not armed: returns once truth comes, within a bounded time. Samples from
-  /// before are discarded. Throws astro::Error that says why none comes.
+  /// To be called before a run, while the robot is at rest and not armed. Returns once ground truth comes, within a bounded
+  /// time, and discards earlier samples. Throws astro::Error that says why none comes.
   virtual void begin_run() {}
 
   /// All samples that arrived since the last call, oldest first; never waits. Times are on the clock that
@@ -32,8 +32,8 @@ class Source {
   /// are asked, so that it cannot be lost.
   virtual bool comes_afterwards() const { return false; }
 
-  /// After a run: samples that exist only when the robot stands at its end (a tape measure, a file). `run`
-  /// holds the odometry of the whole run, including the rests at both ends. Empty for sources that stream. Nothing if
+  /// To be called after a run. Returns samples that exist only when the robot is at rest at the end (a tape measure, a file).
+  /// `run` holds the odometry of the whole run, including the rests at both ends. Empty for sources that stream. Nothing if
   /// the person who was asked wants the run to be driven again.
   virtual std::optional<std::vector<recording::TruthSample>> complete(const recording::Run& run) {
     static_cast<void>(run);

@@ -10,7 +10,7 @@ namespace astro::truth {
 namespace {
 
 constexpr std::size_t kMostFrames = 4096;
-constexpr std::size_t kLongestChain = 64;  // also what ends a circle
+constexpr std::size_t kLongestChain = 64;  // this also ends a cycle
 
 struct Vector {
   double x = 0, y = 0, z = 0;

@@ -14,8 +14,8 @@ namespace astro::truth {
 /// Two transforms of a chain move. Values: its last and its first frame, and those whose transforms move.
 enum class FrameProblem { two_move };
 
-/// `inner`, a pose in the frame that `outer` places. A rotation need not be exactly of length 1; one of length 0 makes the
-/// result NaN, which no body can have.
+/// Transforms `inner` by `outer`, which is the pose of the frame that `inner` is given in. A rotation need not be exactly of
+/// length 1; one of length 0 makes the result NaN, which no body can have.
 Pose3 composed(const Pose3& outer, const Pose3& inner);
 
 /// A frame's name without the leading slash that older programs write.
@@ -31,15 +31,15 @@ class FrameTree {
   /// `fixed`: it holds for ever, as those of /tf_static do.
   void put(const ros2::StampedPose& transform, bool fixed);
 
-  /// The frames from `child` up to `parent`, both included; if they are not connected, as far up as is known. With "" as the
-  /// parent up to the child's own.
+  /// The frames from `child` up to `parent`, both included; if they are not connected, as far up as is known. If `parent` is
+  /// "", up to the child's own parent.
   std::vector<std::string> chain(const std::string& child, const std::string& parent) const;
 
-  /// The frame of a chain whose transform to the frame above brings new poses: the one that has moved, or as long as none
-  /// has, the topmost that is not fixed. Nothing if all are fixed. Throws astro::Error if two have moved.
-  /// Precondition, also of the next: what chain() returned.
+  /// The frame of a chain whose transform to the frame above brings new poses. It is the one that has moved; if none has yet,
+  /// it is the topmost that is not fixed. Nothing if all are fixed. Throws astro::Error if two have moved. Precondition, also
+  /// of pose(): chain() has returned `chain`.
   std::optional<std::string> moving(const std::vector<std::string>& chain) const;
-  /// Of the first frame of a chain in its last one.
+  /// The pose of a chain's first frame in its last one.
   Pose3 pose(const std::vector<std::string>& chain) const;
 
  private:

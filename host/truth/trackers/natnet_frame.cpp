@@ -9,14 +9,14 @@ constexpr Version kSized{4, 1};  // from here on each section tells its size, an
 constexpr std::size_t kPoint = 12, kBodyBytes = 38, kMarkerBytes = 26;
 constexpr std::size_t kSuffix = 46, kSuffixWithPreciseTime = 54;
 
-/// The sections of a frame. A count that cannot be right ends in a cursor that is not ok().
+/// Reads the sections of a frame. An impossible count makes the cursor !ok().
 class Walk {
  public:
   Walk(ByteView payload, Version version) : cursor_(payload), sized_(version >= kSized) {}
 
   ByteCursor& cursor() { return cursor_; }
 
-  /// Calls `one` for each element; newer versions need not know how to, they skip by the section's size.
+  /// Calls `one` for each element. In versions that state the section's size, it skips the section instead.
   template <class One>
   void section(One one) {
     const auto count = cursor_.number<std::int32_t>();
@@ -154,7 +154,8 @@ std::int64_t exposed_us(const Frame& frame, std::uint64_t ticks_per_s) {
   const std::uint64_t ticks = frame.exposed_ticks != 0 ? frame.exposed_ticks : frame.sent_ticks;
   double seconds = frame.timestamp_s, rest_us = 0;
   if (ticks != 0 && ticks_per_s != 0) {
-    // Whole seconds and the rest, because a double of all ticks has no microseconds left after some years.
+    // Whole seconds and the rest are converted separately, because a double of all ticks loses the
+    // microseconds after some years.
     seconds = static_cast<double>(ticks / ticks_per_s);
     rest_us = 1e6 * static_cast<double>(ticks % ticks_per_s) / static_cast<double>(ticks_per_s);
   }

@@ -30,8 +30,8 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
-/// Nothing if the payload is no frame of this version. In versions newer than 4.1, sections that are not known
-/// are skipped, which stand between the known ones and the times at the end.
+/// Nothing if the payload is no frame of this version. In versions newer than 4.1 there may be unknown
+/// sections between the known ones and the times at the end, which are skipped.
 std::optional<Frame> frame_in(ByteView payload, Version version);
 /// A frame with nothing but these bodies.
 Bytes payload_of(const Frame& frame, Version version);

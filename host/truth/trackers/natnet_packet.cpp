@@ -31,8 +31,8 @@ Bytes datagram_of(Id id, ByteView payload) {
   return bytes;
 }
 
-/// As of a client of version 3.0, which gets the server's own version: a wish for another one would be heard
-/// by unicast servers only.
+/// The request of a client of version 3.0, to which the server sends its own version. Only unicast servers
+/// would fulfil a request for another version.
 Bytes connect_request() {
   Bytes payload;
   append_padded(payload, "NatNet client", kNameBytes);

@@ -15,7 +15,8 @@ using ros2::msg::kGidBytesOfHumble;
 using InfoOfHumble = ros2::msg::ParticipantEntitiesInfo<kGidBytesOfHumble>;
 using Info = ros2::msg::ParticipantEntitiesInfo<kGidBytes>;
 
-// What is kept, whoever announces it. A full name of ROS 2 has 255 characters at most.
+// Limits of what is kept, because anybody may announce anything. A full name of ROS 2 has 255 characters at
+// most.
 constexpr std::size_t kMostParticipants = 1024, kMostEndpoints = 32'768, kLongestFullName = 255;
 
 template <std::size_t N>
@@ -25,7 +26,8 @@ NodeNames::Guid guid_of(const Gid<N>& gid) {
   return guid;
 }
 
-/// Humble pads with zeros; where it would, the others have the number of their nodes.
+/// Nothing if the message is not one of Humble, which pads identifiers with zeros. Later versions have the
+/// number of nodes there.
 std::optional<InfoOfHumble> info_of_humble(ByteView message) {
   auto info = ros2::decode<InfoOfHumble>(message);
   if (!info) return std::nullopt;

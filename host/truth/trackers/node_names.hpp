@@ -10,14 +10,15 @@
 
 namespace astro::truth {
 
-/// Which node has which writers and readers, as nodes announce it on the topic ros_discovery_info: of ROS 2 Humble and of
-/// later versions, whose identifiers have other lengths. Bounds: some thousand participants and some ten thousand endpoints.
+/// Which node has which writers and readers, as nodes announce it on the topic ros_discovery_info. It reads messages of ROS 2
+/// Humble and of later versions, whose identifiers have another length. Bounds: some thousand participants and some ten
+/// thousand endpoints.
 class NodeNames {
  public:
   using Guid = std::array<std::uint8_t, 16>;  // of an endpoint
 
-  /// What one participant says of all its nodes, in place of what it has said before. Bytes that are no such message are
-  /// ignored.
+  /// Takes what one participant announces of all its nodes, which replaces what it has announced before. Bytes that are no
+  /// such message are ignored.
   void take(ByteView message);
 
   /// "/vrpn_mocap"; "" if it is not known.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostNames = 256;  // that are kept to be listed
 
-/// Names are kept, so that one that is as long as its message would take its memory for ever.
+/// Very long names are refused, because names are kept and would hold their memory for ever.
 bool has_usual_names(const ros2::StampedPose& pose) {
   constexpr std::size_t kLongestName = 1000;
   return pose.frame.size() <= kLongestName && pose.child_frame.size() <= kLongestName;

@@ -37,14 +37,13 @@ class RosPoseStream {
  public:
   explicit RosPoseStream(RosBody wanted);
 
-  /// A message of the topic, of a type that ros2::holds_poses(). Bytes that are none, or in which a frame
-  /// has a name of more than 1000 bytes, are counted. Throws astro::Error if its
-  /// poses are no ground truth.
+  /// Takes a message of the topic. Precondition: ros2::holds_poses(type). Bytes that are no such message, or in which the
+  /// name of a frame is too long, are only counted. Throws astro::Error if its poses are no ground truth.
   void push(std::string_view type, ByteView message);
-  /// A message of /tf_static.
+  /// Takes a message of /tf_static.
   void push_fixed(ByteView message);
 
-  /// Since the last call, oldest first.
+  /// The poses since the last call, oldest first.
   std::vector<RosPose> take() { return std::exchange(poses_, {}); }
 
   /// Why nothing has come of this body: a clause; "" if something has.

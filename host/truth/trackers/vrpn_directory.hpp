@@ -10,8 +10,8 @@
 
 namespace astro::truth::vrpn {
 
-/// The names that the other side of a connection has given to its ids. Sides number as they like, so that no
-/// id means anything before it was described. A name that is described again gets the newer id.
+/// The names that the other side of a connection has given to its ids. Each side chooses its own numbers, so
+/// an id means nothing before it was described. A name that is described again gets the newer id.
 ///
 /// Bounds  the first 2000 ids of each kind, as many as the upstream library has.
 class Directory {

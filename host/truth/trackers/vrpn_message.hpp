@@ -30,7 +30,7 @@ inline constexpr std::size_t kHeaderBytes = 24;
 inline constexpr std::size_t kLongestMessage = 64'000;  // header included; a pose has 88
 inline constexpr std::uint16_t kPort = 3883;            // TCP and UDP, if nobody chose another
 
-/// The first 24 bytes of each side of a TCP connection, and of a UDP datagram of no message.
+/// The first 24 bytes of each side of a TCP connection, and of a UDP datagram without messages.
 inline constexpr std::size_t kCookieBytes = 24;
 Bytes cookie();
 /// Whether the other side speaks this version: the digits after its last point may differ.
