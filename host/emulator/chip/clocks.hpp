@@ -7,8 +7,8 @@
 
 namespace astro::emulator {
 
-/// Which rule of clocks and supplies was broken. The value is the clock in MHz; of voltage_too_low the
-/// voltage in millivolts comes before it.
+/// Which rule of clocks and supplies was broken. The value is the clock in MHz; for voltage_too_low the
+/// voltage in millivolts precedes it.
 enum class ClockProblem {
   pll_in_use,
   pll_factor_out_of_range,
@@ -40,7 +40,7 @@ class Analog : public Stored {
   std::uint32_t arm_pll_mhz() const;
   bool usb_pll_ready() const;
   /// Whether the core runs from the ARM PLL; called before each write to that PLL, which must not change
-  /// then.
+  /// while it does.
   std::function<bool()> core_runs_from_arm_pll = [] { return false; };
 
  private:
@@ -63,8 +63,8 @@ class Dcdc : public Stored {
   Cycles settled_at_ = 0;
 };
 
-/// The clock controller: dividers and selectors with their handshakes, and the gates. After the ROM the gates
-/// of parts that it has no use for are closed, so that a driver which forgets to open one is found.
+/// The clock controller: dividers and selectors with their handshakes, and the gates. The gates of parts that
+/// the ROM does not use are closed after it, so that a driver that forgets to open one is detected.
 class Ccm : public Stored {
  public:
   Ccm(Machine& machine, Analog& analog, Dcdc& dcdc);

@@ -10,7 +10,7 @@
 
 namespace astro::emulator {
 
-/// Which command the flash ignores, or must not get. The value of outside_parameters is the address.
+/// Which command the flash ignores, or must not receive. The value of outside_parameters is the address.
 enum class FlashProblem { busy, not_write_enabled, outside_parameters, more_than_a_page };
 
 /// The serial NOR flash of a Teensy 4.0 (W25Q16JV): commands and their times, over the memory that the
@@ -27,7 +27,7 @@ class FlashChip : public Model {
 
   FlashChip(Machine& machine, std::span<std::uint8_t> content) : machine_(machine), content_(content) {}
 
-  // No registers: it takes part in time.
+  // It has no registers, but takes part in events.
   std::uint32_t read(std::uint32_t) override { return 0; }
   void write(std::uint32_t, std::uint32_t) override {}
   void event() override { on_busy(false); }
@@ -40,14 +40,15 @@ class FlashChip : public Model {
   bool busy() const { return machine_.now() < busy_until_; }
 
   void write_enable();
-  /// What programs or erases keeps its permission until it is done.
+  /// The write enable latch stays set until programming or erasing is done.
   std::uint8_t status() const { return busy() ? 3 : enabled_ ? 2 : 0; }
   std::array<std::uint8_t, 3> identity();
   void erase_sector(std::uint32_t address);
-  /// At most a page; beyond its end the address goes on at the page's begin.
+  /// Programs at most a page; beyond the page's end the address wraps to its beginning.
   void program(std::uint32_t address, std::span<const std::uint8_t> bytes);
 
-  /// Power fails when so many more bytes have been programmed or erased. The chip is dead from then on.
+  /// Makes the power fail after so many more bytes have been programmed or erased. The chip does nothing from
+  /// then on.
   void cut_power_after(std::uint64_t bytes, sim::Tear tear = sim::Tear::sharp) {
     faults_.cut_power_after(bytes, tear);
   }
@@ -55,7 +56,7 @@ class FlashChip : public Model {
   void restore_power();
   std::uint64_t bytes_worked() const { return faults_.bytes_worked(); }
 
-  /// The parameters' sectors.
+  /// The sectors of the robot's parameters.
   std::span<std::uint8_t> parameters() { return content_.subspan(kParameters, kParametersEnd - kParameters); }
   /// Called when work begins and when it is done.
   std::function<void(bool)> on_busy = [](bool) {};

@@ -58,12 +58,12 @@ void FlexPwm::load_when_period_ends() {
   machine_.wake(*this, machine_.now() + period - (machine_.now() - period_began_) % period);
 }
 
-/// The crossbar leaves every input low, which is a fault unless FLVL makes high the fault level.
+/// The crossbar leaves every fault input low, which is a fault unless FLVL makes high the fault level.
 std::uint32_t FlexPwm::faults_now() const {
   return ~pwm::FCTRL0_FLVL.of(value(pwm::FCTRL0.value)) & kFaultInputs;
 }
 
-/// A period ends.
+/// Called when a period ends.
 void FlexPwm::event() {
   if (!running()) return;
   load();

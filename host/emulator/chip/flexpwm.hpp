@@ -7,7 +7,7 @@
 
 namespace astro::emulator {
 
-/// What the PWM cannot do, or does not do as it is written.
+/// What the model of the PWM cannot do, or which write has no effect on the chip.
 enum class PwmProblem {
   prescaler_not_modelled,
   never_loaded,

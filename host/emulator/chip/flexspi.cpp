@@ -31,7 +31,7 @@ void Flexspi::reset() {
   from_flash_.clear();
 }
 
-/// The steps that a command of the flash has; nullptr if it has no such command.
+/// The steps of a command that the flash knows; nullptr if it does not know the command.
 const Flexspi::Command* Flexspi::known(std::uint8_t opcode) {
   static constexpr std::array<Command, 6> kCommands{
       {{.opcode = kWriteEnable},
@@ -84,7 +84,8 @@ void Flexspi::trigger() {
   machine_.wake(*this, machine_.now() + takes);
 }
 
-/// The time of the command is over. It waits longer if data are missing in the queue.
+/// Called when the time of the command is over. The command goes on if some of its data are not in the queue
+/// yet.
 void Flexspi::event() {
   if (!running_) return;
   const std::uint32_t wanted = command_.writes ? flexspi::IPCR1_IDATSZ.of(value(flexspi::IPCR1.value)) : 0;

@@ -6,11 +6,11 @@
 
 namespace astro::emulator {
 
-/// What a port cannot do. The first value is the port's number; of pins_of_other_port the register and the
+/// What a port cannot do. The first value is the port's number; for pins_of_other_port the register and the
 /// number of that port follow.
 enum class GpioProblem { pins_of_other_port, pad_state_written, interrupts_not_modelled };
 
-/// One GPIO port. Which pins it has is up to GPR26..29: 1..4 and 6..9 are two views of the same pads.
+/// One GPIO port. GPR26..29 decide which pins it has, because 1..4 and 6..9 are two views of the same pads.
 ///
 /// Not modelled  interrupts of the pins.
 class Gpio : public Model {
@@ -24,7 +24,7 @@ class Gpio : public Model {
   /// Levels of the pins that are outputs.
   std::uint32_t driven() const { return data_ & direction_; }
   std::uint32_t outputs() const { return direction_; }
-  /// What the world applies to the pins that are inputs.
+  /// Sets the levels that the world applies to the pins that are inputs.
   void set_inputs(std::uint32_t levels) { inputs_ = levels; }
 
  private:

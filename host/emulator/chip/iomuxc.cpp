@@ -17,7 +17,8 @@ std::uint32_t banks(std::uint32_t configuration, std::uint32_t kind) {
   return count * Memory::kBank;
 }
 
-/// What the core looks for at most: code 3 is 4 KB, each further one twice that. 0 leaves it to the fuses.
+/// The size that the core allows for a tightly coupled memory: code 3 is 4 KB, each further code twice as
+/// much. With code 0 the fuses decide.
 std::uint32_t window(std::uint32_t code) { return code == 0 ? Memory::kFlexRam : 512U << code; }
 
 }  // namespace

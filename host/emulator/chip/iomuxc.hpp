@@ -34,7 +34,7 @@ class Iomuxc : public Stored {
 /// What is wrong with the division of FlexRAM.
 enum class FlexRamProblem { vectors_moved, size_unknown };
 
-/// IOMUXC_GPR: how FlexRAM is shared out, and which of two ports has a pin.
+/// IOMUXC_GPR: how FlexRAM is divided, and which of two ports owns a pin.
 class IomuxcGpr : public Stored {
  public:
   explicit IomuxcGpr(Machine& machine)
@@ -42,7 +42,7 @@ class IomuxcGpr : public Stored {
 
   void write(std::uint32_t offset, std::uint32_t word) override;
   void reset() override;
-  /// Called when the firmware, or a reset, has changed it.
+  /// Called when the firmware, or a reset, has changed the division.
   std::function<void(const Memory::Layout&)> on_layout = [](const Memory::Layout&) {};
 
   /// Pins of GPIO1..4 that belong to the fast copy, GPIO6..9.

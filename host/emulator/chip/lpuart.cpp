@@ -29,7 +29,7 @@ std::uint32_t Lpuart::baud() const {
   return ccm_.uart_hz() / ((lpuart::BAUD_OSR.of(baud_) + 1) * lpuart::BAUD_SBR.of(baud_));
 }
 
-/// Both pads must be the port's, and the input must be selected.
+/// Whether both pads belong to the port, and its input is selected.
 bool Lpuart::connected() const {
   return iomuxc_.function(iomuxc::SW_MUX_CTL_PAD_GPIO_AD_B0_03.value) == 2 &&
          iomuxc_.function(iomuxc::SW_MUX_CTL_PAD_GPIO_AD_B0_02.value) == 2 &&
@@ -89,7 +89,7 @@ std::uint32_t Lpuart::status() const {
   return events_ | lpuart::STAT_RDRF(data) | lpuart::STAT_TDRE(room) | lpuart::STAT_TC(sending_.empty());
 }
 
-/// Characters wait below the watermark, and no event will report them.
+/// Whether characters wait below the watermark, and no event will report them.
 bool Lpuart::stranded() const {
   const bool told =
       (status() & (lpuart::STAT_RDRF.mask() | lpuart::STAT_IDLE.mask())) != 0 || idle_at_ != kNever;

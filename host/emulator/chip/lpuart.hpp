@@ -35,7 +35,7 @@ class Lpuart : public Model {
   void event() override;
   void reset() override;
 
-  /// How long the processor waits for each register that it reads, because others use the bus.
+  /// How long the processor waits for each register that it reads, because other masters use the bus.
   Cycles read_takes = 0;
 
   // The host's end.

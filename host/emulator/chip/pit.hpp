@@ -10,9 +10,9 @@ namespace astro::emulator {
 /// What a timer cannot do. The value is its channel's number; of count_written the offset of the register.
 enum class PitProblem { nothing_to_chain_to, module_stopped, chained_while_counting, count_written };
 
-/// Four timers that count down to zero and restart at LDVAL, each by the module's clock or chained to the
-/// timer before it: then it counts that timer's periods. The first two, read as one, are the lifetime timer.
-/// Its upper half changes one count after its lower half has restarted.
+/// Four timers that count down to zero and restart at LDVAL. Each counts by the module's clock, or is chained
+/// to the timer before it and counts that timer's periods. The first two, read as one, are the lifetime
+/// timer. Its upper half changes one count after its lower half has restarted.
 class Pit : public Model {
  public:
   Pit(Machine& machine, const Ccm& ccm) : machine_(machine), ccm_(ccm) {}

@@ -23,7 +23,7 @@ void Rtwdog::reset() {
   unlocked_until_ = 0;
 }
 
-/// As after a reset: it resets the chip after 32 ms.
+/// Leaves the watchdog running as after a reset: it resets the chip after 32 ms.
 void Rtwdog::leave_rom_state() {
   control_ |= rtwdog::CS_EN(1);
   feed();
@@ -69,7 +69,7 @@ void Rtwdog::write_key(std::uint32_t value) {
   half_key_ = 0;
 }
 
-/// Outside the window the chip silently ignores the write, so it ends the run here.
+/// Outside of the unlock window the chip silently ignores the write, so the model ends the run.
 void Rtwdog::configure(std::uint32_t offset, std::uint32_t value) {
   if (!unlocked())
     return machine_.fail({"RTWDOG: configured without the key, or more than 128 bus clocks after it",

@@ -10,7 +10,8 @@
 
 namespace astro::emulator {
 
-/// Which rule of a watchdog was broken. The last two are of WDOG1 and WDOG2; their value is its number.
+/// Which rule of a watchdog was broken. The last two are about WDOG1 and WDOG2; their value is the watchdog's
+/// number.
 enum class WatchdogProblem {
   update_forbidden,
   unlocked_from_flash,
@@ -49,8 +50,8 @@ class Rtwdog : public Model {
   Cycles unlocked_until_ = 0;
 };
 
-/// WDOG1 or WDOG2. The firmware only switches their power-down off: a counter runs from reset on and pulls
-/// the pin WDOG_B after 16 s unless WMCR.PDE is cleared before.
+/// WDOG1 or WDOG2. The firmware only stops their power-down counter, which runs from reset on and pulls the
+/// pin WDOG_B after 16 s unless WMCR.PDE is cleared before.
 class Wdog : public Model {
  public:
   Wdog(Machine& machine, int number) : machine_(machine), number_(number) {}

@@ -9,7 +9,7 @@
 namespace astro::emulator {
 
 /// What is wrong with an access. The values are the register's name or address, and "read" or "write". Then
-/// of wrong_width the bytes of the access, of clock_off the gate: "1", "6" for CCGR1 CG6.
+/// follow for wrong_width the bytes of the access, for clock_off the gate: "1", "6" for CCGR1 CG6.
 enum class AccessProblem { not_modelled, wrong_width, clock_off };
 
 /// Passes each access to the model of its address, and ends the run at accesses that fail on the chip: no

@@ -15,8 +15,9 @@
 
 namespace astro::emulator {
 
-/// The state that the boot ROM leaves behind. `untidy`: every state is as bad as no manual excludes: MPU on,
-/// interrupts enabled and pending, every mask set, the process stack in use, USB still attached.
+/// The state that the boot ROM leaves behind. `untidy`: everything is in the worst state that no manual
+/// excludes: MPU on, interrupts enabled and pending, every mask set, the process stack in use, USB still
+/// attached.
 enum class HandOver : std::uint8_t { tidy, untidy };
 
 /// What the processor or a bus master cannot do. A value is the address, or an exception's number.
@@ -45,20 +46,20 @@ class Chip : public Machine {
   const Protection& protection() const { return protection_; }
   /// CFSR: what the last fault was.
   std::uint32_t fault_status() const { return exceptions_.cfsr; }
-  /// An exception waits to be taken.
+  /// Whether an exception is pending.
   bool pending(int number) const { return exceptions_.pending(number); }
 
   /// Adds a model, which takes part in resets and events from now on.
   void add(Model& model) { models_.push_back(&model); }
 
-  /// Names of addresses in messages.
+  /// The names of addresses in messages.
   Symbols symbols;
   /// Whether a clock gate is open; where the cause of a reset is stored.
   std::function<bool(Gate)> gates;
   std::function<void(Reset)> remember_reset;
-  /// The flash begins (true) or ends (false) to erase or program; meanwhile it cannot be read.
+  /// Tells that the flash begins (true) or ends (false) to erase or program; in between it cannot be read.
   void set_flash_busy(bool busy);
-  /// FlexRAM is divided differently.
+  /// Changes the division of FlexRAM.
   void set_layout(const Memory::Layout& layout);
 
   /// Power-on or restart: resets the models, then runs the boot ROM.
@@ -67,7 +68,7 @@ class Chip : public Machine {
   /// Runs until `end`. Throws Stopped if the firmware broke a rule.
   void run_until(Cycles end);
 
-  /// The firmware has called the boot loader: the processor stands still.
+  /// Whether the firmware has called the boot loader; the processor is stopped then.
   bool in_bootloader() const { return in_bootloader_; }
 
   // Machine

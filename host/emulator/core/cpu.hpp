@@ -16,9 +16,9 @@ namespace astro::emulator {
 /// The instruction engine: registers, memories, and callbacks to the rest of the machine.
 ///
 /// Uses    Unicorn, with three peculiarities. If it is stopped during a register access, it rewinds the
-///         program counter and repeats the access, so it is only stopped between blocks of instructions.
-///         Stopped there, the program counter may be at an instruction that has run already. And it leaves
-///         exceptions to us.
+///         program counter and repeats the access, so it is only stopped between blocks of instructions. If
+///         it is stopped there, the program counter may be at an instruction that has run already. It does
+///         not handle exceptions, so Hooks::exception must.
 class Cpu {
  public:
   /// Callbacks of the engine.

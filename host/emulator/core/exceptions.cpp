@@ -189,7 +189,7 @@ std::optional<int> Exceptions::fault(int number, std::uint32_t cause) {
   if (can_take(number)) return number;
   constexpr std::uint32_t kForced = 1U << 30;
   hfsr |= kForced;
-  if (running_level(true) <= -1) return {};  // a fault in the handler of the last resort
+  if (running_level(true) <= -1) return {};  // a fault at the priority of HardFault or above
   return exception::kHardFault;
 }
 

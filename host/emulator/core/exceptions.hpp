@@ -60,14 +60,15 @@ class Exceptions {
 
   /// The exception that must be taken now.
   std::optional<int> due() const;
-  /// True if it would end a WFI: PRIMASK does not count.
+  /// Whether a pending exception would end a WFI, for which PRIMASK is ignored.
   bool wakes() const;
   /// Enters the handler of `number`. False if the core has locked up.
   bool enter(int number);
-  /// A handler returns with this value in the program counter.
+  /// Returns from a handler that has put this value into the program counter.
   void leave(std::uint32_t return_value);
-  /// An instruction could not be carried out, or exception `number` cannot be taken where it must be: the
-  /// exception that this leads to, or nothing if the core has locked up. `cause` are its bits in CFSR.
+  /// Handles an instruction that could not be executed, or an exception `number` that cannot be taken where
+  /// it must be. Returns the exception that follows, or nothing if the core has locked up. `cause`: the bits
+  /// of the cause in CFSR.
   std::optional<int> fault(int number, std::uint32_t cause = 0);
 
   /// The rule that the firmware broke, if any: no handler, a return without an exception.

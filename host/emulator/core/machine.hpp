@@ -34,7 +34,7 @@ class Machine {
 
   virtual Cycles now() const = 0;
 
-  /// The level of an interrupt line (0..159).
+  /// Sets the level of an interrupt line (0..159).
   virtual void set_interrupt(int irq, bool level) = 0;
 
   /// Calls model.event() at `when`, replacing an earlier request of the same model; kNever cancels it.
@@ -48,17 +48,17 @@ class Machine {
   /// True while the gate lets the clock through in run mode.
   virtual bool clocked(Gate gate) const = 0;
 
-  /// The processor waits for this time because a peripheral answers late.
+  /// Makes the processor wait for this time because a peripheral answers late.
   virtual void wait(Cycles time) = 0;
 
   /// True while the instructions come from the flash, where any fetch may take a microsecond.
   virtual bool runs_from_flash() const = 0;
 
-  /// Memory for a bus master. Empty after fail() if the range is no RAM, or RAM that the processor caches
-  /// (the firmware's MPU setting decides), where a real master would see stale data.
+  /// Memory for a bus master. If the range is not RAM, calls fail() and returns nothing. The same if the
+  /// processor caches it (the firmware's MPU setting decides), because a real master would see stale data.
   virtual std::span<std::uint8_t> dma(std::uint32_t address, std::uint32_t bytes) = 0;
 
-  /// The chip restarts at the end of the present instruction. RAM keeps its content, as on the chip.
+  /// Restarts the chip at the end of the present instruction. RAM keeps its content, as on the chip.
   virtual void restart(Reset cause) = 0;
 };
 
@@ -71,7 +71,7 @@ class Model {
   virtual std::uint32_t read(std::uint32_t offset) = 0;
   virtual void write(std::uint32_t offset, std::uint32_t value) = 0;
 
-  /// The time requested by Machine::wake has come.
+  /// Called when the time requested by Machine::wake has come.
   virtual void event() {}
 
   /// Sets reset values, whatever the cause. A model keeps what survives a warm reset.

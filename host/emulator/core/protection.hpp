@@ -43,10 +43,10 @@ class Protection {
 
   bool on() const { return on_; }
   const Region& region(std::size_t number) const { return regions_[number]; }
-  /// What the processor may do at an address. Without a region: everything while the MPU is off, else
-  /// nothing.
+  /// What the processor may do at an address. Outside of all regions it may do everything while the MPU is
+  /// off or PRIVDEFENA is set, else nothing.
   Access at(std::uint32_t address) const { return at(address, 0); }
-  /// The same for a whole page, without the regions that are smaller.
+  /// The same for a whole page, ignoring regions that are smaller.
   Access page(std::uint32_t address) const { return at(address, kPage); }
   /// Regions smaller than a page that allow no access: a null pointer, the end of a stack.
   std::vector<Span> traps() const;

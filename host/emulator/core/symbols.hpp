@@ -7,7 +7,7 @@
 
 namespace astro::emulator {
 
-/// Names of functions and variables of an image, from its .elf file. Without one no address has a name.
+/// Names of functions and variables of an image, from its .elf file. A default-constructed object has none.
 class Symbols {
  public:
   Symbols() = default;

@@ -33,7 +33,7 @@ class SystemControl {
   Cycles next_event() const { return tick_at_; }
   void event();
 
-  /// The firmware drops the line of the data cache at an address.
+  /// Called when the firmware drops the line of the data cache at an address.
   std::function<void(std::uint32_t)> on_invalidate = [](std::uint32_t) {};
 
   /// Whether the processor may cache this address, with MPU and caches as the firmware has set them.

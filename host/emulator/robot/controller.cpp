@@ -157,7 +157,7 @@ Handshake UsbController::out(std::uint8_t address, int endpoint, std::span<const
   return Handshake::ack;
 }
 
-/// After a packet: if it was the last of its transfer, the firmware is told so.
+/// Called after each packet: if it was the last of its transfer, this is reported to the firmware.
 void UsbController::note_complete(int endpoint, bool in) {
   if (endpoints_.pipe(endpoint, in).primed()) return;
   complete_ |= Endpoints::bit_of(endpoint, in);
@@ -199,7 +199,7 @@ std::uint32_t UsbController::read(std::uint32_t offset) {
   if (offset == usb::ENDPTSTAT.value) return endpoints_.primed();
   if (offset >= usb::ENDPTCTRL0.value) return endpoints_.control(endpoint_at(offset));
   if (offset != usb::ENDPTPRIME.value && offset != usb::ENDPTFLUSH.value) refuse(offset);
-  return 0;  // both are over at once
+  return 0;  // priming and flushing take no time
 }
 
 void UsbController::refuse(std::uint32_t offset) {

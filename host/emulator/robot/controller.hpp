@@ -11,7 +11,7 @@
 
 namespace astro::emulator {
 
-/// Which rule of the controller was broken. The value is an endpoint's number; of not_modelled the register.
+/// Which rule of the controller was broken. The value is an endpoint's number; for not_modelled the register.
 enum class UsbProblem {
   attached_before_device_mode,
   attached_without_clock,
@@ -49,7 +49,7 @@ class UsbController : public Model {
   void end_reset(bool high_speed);
   void suspend();
   void resume();
-  /// The cable, which is plugged in at the start. Without it the bus is idle for the device.
+  /// Unplugs the cable, which is plugged in at the start. Without it the device sees an idle bus.
   void unplug();
   void plug_in() { plugged_ = true; }
 
@@ -59,7 +59,7 @@ class UsbController : public Model {
 
  private:
   QueueHead head(int endpoint, bool in);
-  /// A packet with this address reaches the device.
+  /// Whether a packet with this address reaches the device.
   bool answers(std::uint8_t address) const;
   void prime(int endpoint, bool in);
   void note_complete(int endpoint, bool in);
@@ -83,7 +83,7 @@ class UsbController : public Model {
   Endpoints endpoints_;
 };
 
-/// The transceiver USBPHY1: registers with copies that set and clear.
+/// The transceiver USBPHY1: each register has further addresses that set and clear its bits.
 class UsbPhy : public Stored {
  public:
   UsbPhy();

@@ -45,7 +45,7 @@ PortTransport::PortTransport(std::shared_ptr<EmulatedRobot> robot, Port port)
       port_(port),
       name_(port == Port::usb ? "the emulated robot's USB port" : "the emulated robot's serial port") {
   if (port_ == Port::serial) return;
-  robot_->usb().open(115'200);  // which means nothing to a USB port
+  robot_->usb().open(115'200);  // which has no meaning for a USB port
   reopen(std::chrono::seconds(1));
 }
 

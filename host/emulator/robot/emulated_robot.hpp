@@ -46,8 +46,8 @@ class EmulatedRobot {
   std::uint64_t clock_us_ = 0;
 };
 
-/// A link to it in the same process: virtual time passes only while the host waits for a byte. Keeps the USB
-/// port open for as long as it lives; errors as of a device file.
+/// A link to an EmulatedRobot in the same process. Virtual time passes only while the host waits for a byte.
+/// Keeps the USB port open for as long as it lives. Errors as those of a device file.
 class PortTransport : public robot::Transport {
  public:
   PortTransport(std::shared_ptr<EmulatedRobot> robot, Port port);

@@ -32,7 +32,8 @@ std::uint32_t with_length(std::uint32_t token, std::uint32_t length) {
   return (token & ~(kLengthMask << kLengthShift)) | length << kLengthShift;
 }
 
-/// The data may begin anywhere in the first page; the other four pages must follow it.
+/// Whether the descriptor names its pages: the data may begin anywhere in the first one; the other four must
+/// follow it.
 bool names_its_pages(std::span<const std::uint8_t> transfer) {
   const std::uint32_t first = word(transfer, 2), end = first + length_of(word(transfer, 1));
   for (std::uint32_t page = first / kPage + 1, n = 1; page * kPage < end; ++page, ++n)
@@ -55,7 +56,7 @@ std::optional<Remark> fault_of(std::span<const std::uint8_t> transfer) {
   return std::nullopt;
 }
 
-/// The same of the queue head that names it.
+/// What is wrong with the queue head that points to it.
 std::optional<Remark> fault_of_head(std::span<const std::uint8_t> head) {
   const std::uint32_t next = word(head, 2);
   if ((next & 1) != 0)
@@ -140,7 +141,7 @@ Packet Pipe::in(QueueHead head) {
 
 void Pipe::out(QueueHead head, std::span<const std::uint8_t> bytes) {
   const auto into = head.take(static_cast<std::uint32_t>(bytes.size()));
-  std::copy_n(bytes.begin(), into.size(), into.begin());  // nothing if it is no memory
+  std::copy_n(bytes.begin(), into.size(), into.begin());  // copies nothing if that is not in memory
   data1_ = !data1_;
   if (head.bytes_left() == 0 || bytes.size() < head.packet_size()) retire(head);
 }

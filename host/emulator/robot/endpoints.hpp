@@ -8,8 +8,8 @@
 
 #include "host/emulator/core/machine.hpp"
 
-/// The endpoints of the USB device controller: their control registers, a pipe for each direction, and what the pipes move, in the
-/// memory behind the queue heads.
+/// The endpoints of the USB device controller: their control registers, and a pipe for each direction. The
+/// data of the pipes are in the memory to which the queue heads point.
 namespace astro::emulator {
 
 /// What is wrong with a queue head, its transfer or an endpoint's control register. The value of the last two
@@ -46,13 +46,14 @@ class QueueHead {
   bool ends_with_empty_packet() const;
   void store_setup(const std::array<std::uint8_t, 8>& packet);
 
-  /// Copies the descriptor that it names. Returns false, and has ended the run, if the firmware made it
-  /// wrongly.
+  /// Copies the transfer descriptor to which it points. If the firmware made the descriptor wrongly, ends the
+  /// run and returns false.
   bool load_transfer();
   std::uint32_t bytes_left() const;
-  /// Takes the next bytes of the transfer: where they are in memory.
+  /// Takes the next bytes of the transfer, and returns where they are in memory.
   std::span<std::uint8_t> take(std::uint32_t bytes);
-  /// Writes to the descriptor that the transfer is over. Returns false if it is in no memory any more.
+  /// Marks the transfer in the descriptor as completed. Returns false if the descriptor is not in memory any
+  /// more.
   bool retire();
 
  private:
@@ -69,8 +70,8 @@ struct Packet {
   bool data1 = false;
 };
 
-/// One direction of an endpoint: whether a transfer is under way (primed), and which of DATA0 and DATA1 the
-/// next packet is. What it moves is in the memory behind its queue head.
+/// One direction of an endpoint: whether a transfer is under way (primed), and whether the next packet is
+/// DATA0 or DATA1. The data are in the memory to which its queue head points.
 class Pipe {
  public:
   bool primed() const { return primed_; }
@@ -83,7 +84,8 @@ class Pipe {
 
   // A transaction, while a transfer is under way.
   Packet in(QueueHead head);
-  /// A packet with the toggle of the one before was repeated by the host: it is acknowledged and dropped.
+  /// False for a packet with the toggle of the one before: the host has repeated it, so it is acknowledged
+  /// and dropped.
   bool expects(bool data1) const { return data1 == data1_; }
   /// Precondition: the bytes are not more than the transfer takes.
   void out(QueueHead head, std::span<const std::uint8_t> bytes);
@@ -99,11 +101,11 @@ class Endpoints {
  public:
   static constexpr std::size_t kCount = 8;
 
-  /// The place of a direction of an endpoint in the registers that have one bit for each.
+  /// The bit of one direction of an endpoint in the registers that have one bit for each.
   static constexpr std::uint32_t bit_of(int endpoint, bool in) { return 1U << (endpoint + (in ? 16 : 0)); }
 
   std::uint32_t control(std::size_t endpoint) const { return control_[endpoint]; }
-  /// The firmware writes the control register. A rule that this breaks ends the run.
+  /// Called when the firmware writes the control register. Ends the run if this breaks a rule.
   void write_control(std::size_t endpoint, std::uint32_t value, Machine& machine);
   bool enabled(int endpoint, bool in) const;
   bool stalled(int endpoint, bool in) const;
@@ -113,7 +115,7 @@ class Endpoints {
   /// The pipes with a transfer under way, as bits.
   std::uint32_t primed() const;
   void flush(std::uint32_t bits);
-  /// A SETUP packet has come to endpoint 0: a stall ends.
+  /// Takes a SETUP packet at endpoint 0, which ends a stall.
   void take_setup();
 
  private:

@@ -48,9 +48,9 @@ class Teensy {
   std::uint64_t instructions() { return chip_.cpu().instructions(); }
   bool in_bootloader() const { return chip_.in_bootloader(); }
 
-  /// The power goes and comes back; the flash keeps what it has.
+  /// Switches the power off and on again; the flash keeps its content.
   void power_cycle();
-  /// Somebody presses the reset button.
+  /// Presses the reset button.
   void press_reset() { chip_.start(Reset::pin); }
 
   Pit& timers() { return pit_; }

@@ -57,7 +57,7 @@ CdcHost::Pipes CdcHost::pipes_of(std::span<const std::uint8_t> configuration) {
 void CdcHost::enumerate() {
   host_.reset();
   expect(host_.set_address(kRobotAddress) == Outcome::done, "takes no address");
-  teensy_.run_for(2ms);  // what a device may take for it
+  teensy_.run_for(2ms);  // the time that a device may take for it
   std::vector<std::uint8_t> configuration;
   const auto read = [&](std::uint16_t bytes) {
     return host_.read({0x80, kGetDescriptor, kConfiguration << 8, 0, bytes}, configuration);
@@ -91,7 +91,7 @@ void CdcHost::open(std::uint32_t baud) {
   if (present_) while_attached([this] { set_line(); });
 }
 
-/// Bytes written before are sent first, as an operating system does it, up to a time limit.
+/// Bytes written before are sent first, up to a time limit, as an operating system does it.
 void CdcHost::close() {
   if (!open_) return;
   for (int i = 0; i < kMicroframesToDrain && present_ && !to_device_.empty(); ++i) {

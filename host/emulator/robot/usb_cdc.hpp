@@ -23,13 +23,13 @@ class CdcHost {
   /// packet.
   void step();
 
-  /// The device has been enumerated.
+  /// Whether the device has been enumerated.
   bool present() const { return present_; }
-  /// A program opens the port, or sets another baud rate, also of a device that is not there yet.
+  /// Opens the port, or sets another baud rate, as a program does. The device may be absent.
   void open(std::uint32_t baud);
   void close();
 
-  /// Bytes for a port that is closed are lost.
+  /// Sends bytes; they are lost if the port is closed.
   void send(std::span<const std::uint8_t> bytes) {
     if (open_) to_device_.insert(to_device_.end(), bytes.begin(), bytes.end());
   }
@@ -44,7 +44,7 @@ class CdcHost {
     int in = 0, out = 0;
   };
 
-  struct Detached {};  // the device has left the bus during a request, which it may do
+  struct Detached {};  // thrown if the device leaves the bus during a request, which is allowed
 
   void expect(bool fulfilled, const char* what);
   template <class Work>

@@ -101,7 +101,7 @@ UsbHost::Outcome UsbHost::write(const Request& request, std::span<const std::uin
   return Outcome::done;
 }
 
-/// Some requests make both sides begin with DATA0 again.
+/// Resets the data toggles after a request that makes both sides begin with DATA0 again.
 void UsbHost::follow(const Request& request) {
   constexpr std::uint8_t kClearFeature = 1, kSetConfiguration = 9, kSetInterface = 11;
   if (request.type == 0x00 && request.request == kSetConfiguration) reset_toggles();

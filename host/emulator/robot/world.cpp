@@ -10,7 +10,7 @@ constexpr Cycles kStep = 1000 * kCyclesPerMicrosecond;
 constexpr double kDivider = 10.0 / (82.0 + 10.0);  // 82 kohm over 10 kohm before pin 14
 constexpr std::uint32_t kErrorPin = 1U << 16;      // pin 8, GPIO7
 
-/// IN1 and IN2 of each channel: a pin of GPIO7, and where its pad gets its function.
+/// IN1 and IN2 of each channel: a pin of GPIO7, and the register that selects the function of its pad.
 struct Pin {
   std::uint32_t bit, mux;
 };

@@ -30,7 +30,7 @@ class World : public Model {
 
   World(Machine& machine, const sim::Config& config, const Wires& wires);
 
-  // No registers: it only takes part in time.
+  // It has no registers, but takes part in events.
   std::uint32_t read(std::uint32_t) override { return 0; }
   void write(std::uint32_t, std::uint32_t) override {}
   void event() override;
@@ -40,7 +40,8 @@ class World : public Model {
   const sim::Drivetrain& drivetrain() const { return drivetrain_; }
   void set_load(Side side, const sim::WheelLoad& load) { drivetrain_.set_load(side, load); }
   void set_supply_V(double volts) { supply_V_ = volts; }
-  /// A fault of the driver chip: it pulls its error output down and opens both bridges.
+  /// Sets or clears a fault of the driver chip, which then pulls its error output down and opens both
+  /// bridges.
   void set_driver_fault(bool fault);
   /// Unplugs one encoder's cable; its counts are lost.
   void unplug(Side side, bool unplugged) { unplugged_[at(side)] = unplugged; }

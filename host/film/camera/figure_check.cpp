@@ -6,9 +6,9 @@
 namespace astro::film {
 namespace {
 
-/// Takes a measurement out of what was found with it.
+/// Removes the contribution of a measurement from the estimate that was found with it.
 Measured without(const Measured& measured, const Measured& found) {
-  constexpr double kRounding = 1e-5;  // of the variance: less is rounding, and nothing else shows the figure
+  constexpr double kRounding = 1e-5;  // of the variance: a smaller reduction is rounding only
   const double own = measured.sigma * measured.sigma, all = found.sigma * found.sigma;
   if (own - all < kRounding * own) return {found.value, std::numeric_limits<double>::infinity()};
   const double variance = all * own / (own - all);

@@ -6,7 +6,7 @@
 
 #include "host/film/camera/scene.hpp"
 
-/// Whether what a person has measured agrees with the film and with all else that they measured.
+/// Checks each value that a person measured against the film and all other measured values.
 namespace astro::film {
 
 enum class FigureKind { floor_side, robot_side, robot_height, tape };
@@ -15,15 +15,20 @@ struct FigureCheck {
   FigureKind kind = FigureKind::floor_side;
   std::size_t tape = 0;  // number in Figures::tapes
   Measured measured;
-  Measured found;      // with this figure and all others
-  Measured by_others;  // without this figure; sigma infinite if nothing else shows it
+  Measured found;      // estimate with this figure and all others
+  Measured by_others;  // estimate without this figure; sigma is infinite if nothing else determines it
 
-  /// By how many standard errors the figure misses what all else says; 0 if nothing else says anything.
+  /// By how many standard errors the figure differs from the estimate without it; 0 if there is no such
+  /// estimate.
   double off() const;
 };
 
-/// Floor side, robot side, robot height, and the tapes between tags of the scene. `covariance`: of the scene's parameters, found with these
-/// figures. To first order: of a figure that is far off only that something is wrong is sure, not by how much.
+/// Checks floor side, robot side, robot height, and the tapes between tags of the scene.
+///
+/// `covariance`  of the scene's parameters, found with these figures
+///
+/// The estimates are to first order. If a figure is far off, it is certain that something is wrong, but not
+/// by how much.
 std::vector<FigureCheck> check_figures(const Scene& scene, const Figures& figures,
                                        const Eigen::MatrixXd& covariance);
 

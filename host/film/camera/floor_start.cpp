@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kBiggest = 3;
-// Seen from straight above every focal length is alike; seen obliquely a wrong one costs a hundred times more than this.
+// From straight above all focal lengths fit equally well, so this small cost prefers the usual one. From an
+// oblique view a wrong focal length costs a hundred times more.
 constexpr double kUsual = 0.8, kUnusual = 2e-4;
 
 /// The corners of all tags on the plane of the floor; nothing if one is not in front of the camera.
@@ -30,7 +31,7 @@ std::optional<std::vector<TagCorners>> on_floor(const Camera& camera, const std:
   return flat;
 }
 
-/// The mean square of how the logarithms of sides and diagonals differ from those of one common square.
+/// The mean square by which the logarithms of sides and diagonals differ from those of one common square.
 double unlikeness(const std::vector<TagCorners>& flat) {
   std::vector<double> logs;
   double mean = 0;
@@ -57,7 +58,7 @@ FloorTag placed(int id, const TagCorners& flat) {
   return {id, {middle.x(), middle.y(), std::atan2(across, along)}};
 }
 
-/// In the frame of the first tag.
+/// Expresses the scene in the frame of its first tag.
 void make_first_origin(Scene& scene) {
   const Pose2 origin = scene.tags.front().pose;
   for (FloorTag& tag : scene.tags) tag.pose = wrapped(origin.between(tag.pose));

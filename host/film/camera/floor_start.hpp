@@ -13,9 +13,10 @@ struct SeenFloorTag {
   TagCorners corners;
 };
 
-/// A first guess of the camera's place and of where the floor tags lie. For each of the biggest tags and some focal lengths
-/// both planar poses are tried; the one is taken on whose plane all tags come out most square and of equal size, because one
-/// tag alone hardly shows which way it leans. The first tag given becomes the origin.
+/// A first guess of the camera's pose and of the poses of the floor tags. Tries both planar poses of each of
+/// the largest tags, for some focal lengths. Takes the pose on whose plane all tags come closest to squares
+/// of one size, because one tag alone hardly shows which way it leans. The first tag given becomes the
+/// origin.
 ///
 /// Nothing if no pose has the camera above the floor and all tags in front of it.
 /// Precondition  at least one tag.

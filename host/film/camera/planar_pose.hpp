@@ -14,8 +14,9 @@ struct PlanarPose {
   Eigen::Vector3d translation_m;
 };
 
-/// Both poses of a square of side `side_m` that look almost alike in the picture of a camera without distortion: a small
-/// square shows hardly whether it leans towards the camera or away from it. The pose that fits better is the first.
+/// The two poses of a square with sides of `side_m` that explain its corners almost equally well: a small
+/// square hardly shows whether it leans towards the camera or away from it. The pose that fits better is the
+/// first. The camera has no distortion.
 ///
 /// `corners`  on the camera's plane z = 1: ((u - cx) / f, (v - cy) / f)
 /// Source     Collins, Bartoli, Infinitesimal plane-based pose estimation, IJCV 109 (2014), section 4.

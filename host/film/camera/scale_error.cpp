@@ -18,7 +18,7 @@ std::vector<Vector2d> places(const Scene& scene, const std::vector<Vector2d>& pi
   return all;
 }
 
-/// The factor of a similarity that takes `from` to `to`.
+/// The scale factor of the similarity that takes `from` to `to`.
 double factor(const std::vector<Vector2d>& from, const std::vector<Vector2d>& to) {
   double along = 0, across = 0, squares = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {

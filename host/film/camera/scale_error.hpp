@@ -7,8 +7,9 @@
 
 namespace astro::film {
 
-/// The standard error of the common factor of all distances that the robot's tag is seen to move: sides of tags, tape, height
-/// and focal length all multiply the robot's whole path by one factor, which no drive can show.
+/// The standard error of the scale of the robot's path. An error in the sides of the tags, a tape, the height
+/// or the focal length multiplies all distances that the robot's tag moves by one factor, which no drive can
+/// show.
 ///
 /// `pixels`      where the tag was seen; spread over the field
 /// `covariance`  of the scene's parameters

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
-/// A point of a tag on the floor.
+/// A point on a tag, in the frame of the floor.
 Vector2d place_of(const Vector2d& point, const Pose2& tag) {
   const Point2 at = tag * Point2{point.x(), point.y()};
   return {at.x_m, at.y_m};
@@ -19,10 +19,12 @@ double mean_row(const TagCorners& corners) {
   return (corners[0].y() + corners[1].y() + corners[2].y() + corners[3].y()) / 4;
 }
 
-/// The camera goes back as its focal length grows, leans more by as much, and its lens bends the same pixels by as much: what a
-/// floor seen from straight above does not show at all is then one parameter, instead of a bent valley through six.
+/// Changes the focal length together with what the film cannot distinguish from it: as it grows, the camera
+/// moves back and leans more in proportion, and the lens distorts the same pixels by as much. What a floor
+/// seen from straight above does not show is then one parameter, and not a curved valley of the cost through
+/// six.
 void change_focal_length(Camera& camera, double by_px) {
-  constexpr double kLevel = -0.1;  // an axis that hardly looks down meets the floor too far away
+  constexpr double kLevel = -0.1;  // an optical axis that hardly points down meets the floor too far away
   const double part = by_px / camera.f_px;
   const Vector3d axis = camera.rotation.row(2).transpose();
   if (axis.z() < kLevel) {
@@ -36,7 +38,7 @@ void change_focal_length(Camera& camera, double by_px) {
   camera.k2 *= std::pow(1 + part, 4);
 }
 
-// The order of the parameters; each floor tag but the first has three more.
+// The order of the parameters. Each floor tag except the first adds three.
 enum : std::size_t {
   kF,
   kCx,
@@ -123,7 +125,7 @@ std::optional<Pose2> rough_pose(const Scene& scene, const TagCorners& seen) {
 }
 
 std::vector<SceneParameter> parameters_of(const Scene& scene, const Figures& figures) {
-  // Main cameras of phones have 0.6 to 0.95. From straight above the film hardly shows it.
+  // Main cameras of phones have 0.6 to 0.95. A film from straight above hardly shows the focal length.
   constexpr double kUsual = 0.8, kUsualWithin = 0.2;  // of the width of the picture
   Measured f = figures.focal_length_px;
   if (f.sigma == 0) f = {kUsual * scene.width_px, kUsualWithin * scene.width_px};

@@ -24,14 +24,14 @@ struct Scene {
   Camera camera;
   int width_px = 0, height_px = 0;
   double floor_side_m = 0.16, robot_side_m = 0.12;  // of the black squares
-  double floor_shift_px = 0, robot_shift_px = 0;    // of their edges into the black
+  double floor_shift_px = 0, robot_shift_px = 0;    // by which their edges seem shifted into the black
   double robot_height_m = 0;                        // of the robot's tag above the floor
   Eigen::Vector2d robot_tilt{0, 0};                 // height gained along the tag's own x and y axes, rad
   std::vector<FloorTag> tags;
   double readout_s = 0;  // from the first row to the last; negative if the last is read first
 };
 
-/// Change of the pose of the robot's tag in a second.
+/// Velocity of the robot's tag.
 struct RobotVelocity {
   double x_mps = 0, y_mps = 0, omega_radps = 0;
 };
@@ -46,21 +46,22 @@ TagCorners with_edges_shifted(const TagCorners& corners, double shift_px);
 /// Where the corners of floor tag `index` are seen.
 TagCorners floor_corners(const Scene& scene, std::size_t index);
 
-/// Where the corners of the robot's tag are seen. Rows are read one after the other: the pose is that at the time of the mean of
-/// the observed rows, and each corner is seen at its own row's time.
+/// Where the corners of the robot's tag are seen. The camera reads its rows one after the other, so each
+/// corner is seen at its own row's time. `pose` is the pose at the time of the mean of the observed rows.
 ///
-/// `seen`  the observed corners, for their rows
+/// `seen`  the observed corners, which give the rows
 TagCorners robot_corners(const Scene& scene, const Pose2& pose, const RobotVelocity& velocity,
                          const TagCorners& seen);
 
-/// When the pose of a tag with these corners is seen, after the presentation time of the picture.
+/// The delay from the picture's presentation time to the moment at which a tag with these corners is seen.
 double row_delay_s(const Scene& scene, const TagCorners& seen);
 
-/// The pose for which corners at the height of the robot's tag fit best, without regard to lens blur, tilt and rows.
+/// The pose for which corners at the height of the robot's tag fit best. Ignores lens blur, tilt and row
+/// delays.
 std::optional<Pose2> rough_pose(const Scene& scene, const TagCorners& seen);
 
-/// What of a scene an estimator may move, as a list of numbers: each with the step of its numeric derivative, its prior, and
-/// which observations it touches.
+/// A parameter of a scene that an estimator adjusts: the step of its numeric derivative, its prior, and which
+/// observations depend on it.
 struct SceneParameter {
   std::string name;
   double step = 0;
@@ -69,7 +70,7 @@ struct SceneParameter {
   int only_tag = -1;  // the only floor tag that it moves, or -1
 };
 
-/// What a person has measured, with standard errors.
+/// A measured value with its standard error.
 struct Measured {
   double value = 0, sigma = 0;
 };
@@ -85,16 +86,17 @@ struct Figures {
 
 std::vector<SceneParameter> parameters_of(const Scene& scene, const Figures& figures);
 
-/// The values that have priors; those of the camera's rotation are 0.
+/// The value of a parameter that has a prior; 0 for those of the camera's rotation.
 double parameter_value(const Scene& scene, std::size_t index);
 
 /// The scene with its parameters changed by `change`, in the order of parameters_of.
 Scene moved(const Scene& scene, const Eigen::VectorXd& change);
 
-/// A number that follows from a scene.
+/// A number computed from a scene.
 using SceneValue = std::function<double(const Scene&)>;
 
-/// The value with the standard error that the covariance of the scene's parameters gives it, to first order.
+/// The value with its standard error, propagated to first order from the covariance of the scene's
+/// parameters.
 Measured measured_by(const Scene& scene, const std::vector<SceneParameter>& parameters,
                      const Eigen::MatrixXd& covariance, const SceneValue& value);
 

@@ -14,7 +14,7 @@ using PoseJacobian = Eigen::Matrix<double, 8, 3>;
 
 constexpr int kMostIterations = 100;
 constexpr double kHuber = 3;
-constexpr double kSettled = 1e-4, kSettledPart = 1e-7;  // of the cost, which is a chi-square: less is no news
+constexpr double kSettled = 1e-4, kSettledPart = 1e-7;  // of the cost, which is a chi-square
 
 Residual difference(const TagCorners& model, const TagCorners& seen) {
   Residual r;
@@ -43,7 +43,7 @@ Residual robot_residual(const Scene& scene, const Problem& problem, const RobotS
          problem.errors.robot_px;
 }
 
-/// Huber's weight of a picture by the root mean square of its residuals.
+/// Huber's weight of a picture, from the root mean square of its residuals.
 double weight_of(const Residual& r) {
   const double rms = r.norm() / std::sqrt(8.0);
   return rms > kHuber ? kHuber / rms : 1;
@@ -54,10 +54,10 @@ double huber_cost(const Residual& r) {
   return rms > kHuber ? 8 * (2 * kHuber * rms - kHuber * kHuber) : r.squaredNorm();
 }
 
-/// Priors, tapes and what tags have in common, in standard errors.
+/// Residuals of the priors, the tapes and the edge shifts, in standard errors.
 VectorXd prior_residual(const Scene& scene, const Problem& problem,
                         const std::vector<SceneParameter>& parameters) {
-  // One lens and one tone curve move the edges of all tags, and only focus and motion differ between them.
+  // One lens and one tone curve shift the edges of all tags; only focus and motion blur differ between tags.
   constexpr double kEdgesDiffer_px = 0.15;
   std::vector<double> all{(scene.robot_shift_px - scene.floor_shift_px) / kEdgesDiffer_px};
   for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -83,7 +83,7 @@ Pose2 stepped(const Pose2& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step[0], pose.y_m + step[1], pose.theta_rad + step[2]};
 }
 
-/// How the residuals of a picture change with its pose.
+/// The Jacobian of a picture's residuals with respect to its pose.
 PoseJacobian by_pose_of(const Scene& scene, const Problem& problem, const RobotSighting& one) {
   constexpr double kStep = 1e-6;  // m and rad
   PoseJacobian jacobian;
@@ -96,8 +96,9 @@ PoseJacobian by_pose_of(const Scene& scene, const Problem& problem, const RobotS
   return jacobian;
 }
 
-/// The poses that fit a scene best. Those of a joint step are right to the first order only, and its second order, a common factor
-/// of all places, costs more than the step gains where the focal length hardly shows.
+/// Refits the poses to a scene. The poses of a joint step are right only to first order. Their second-order
+/// error, a common factor of all places, costs more than the step gains if the focal length is hardly
+/// observable.
 void settle_poses(State& state, const Problem& problem) {
   for (RobotSighting& one : state.robot) {
     const PoseJacobian by_pose = by_pose_of(state.scene, problem, one);
@@ -106,7 +107,7 @@ void settle_poses(State& state, const Problem& problem) {
   }
 }
 
-/// Normal equations with the pictures' blocks kept apart.
+/// Normal equations in which the pictures' blocks are kept separate.
 struct Equations {
   MatrixXd hessian;
   VectorXd gradient;
@@ -118,7 +119,7 @@ struct Equations {
   std::vector<Block> blocks;
 };
 
-/// A parameter's scene a step forward and a step back.
+/// The scene with one parameter moved a step forward, and a step back.
 struct Neighbours {
   Scene ahead, behind;
   double twice_step;
@@ -200,7 +201,7 @@ Equations equations_of(const State& state, const Problem& problem,
   return to;
 }
 
-/// The normal equations of the parameters alone, damped by `lambda` times the diagonal.
+/// The normal equations of the parameters alone (Schur complement), damped by `lambda` times the diagonal.
 std::pair<MatrixXd, VectorXd> reduced(const Equations& equations, double lambda) {
   MatrixXd hessian = equations.hessian;
   hessian.diagonal() *= 1 + lambda;
@@ -256,13 +257,13 @@ SceneFit fit_scene(const Scene& start, const std::vector<TagCorners>& floor, std
   double cost = cost_of(state, problem, parameters), lambda = 1e-3;
   Equations equations = equations_of(state, problem, parameters);
   SceneFit fit;
-  bool refused = false;  // the step before
+  bool refused = false;  // whether the previous step was
   while (fit.iterations < kMostIterations && !fit.converged) {
     ++fit.iterations;
     State next = after_step(state, equations, lambda);
     settle_poses(next, problem);
     const double next_cost = cost_of(next, problem, parameters);
-    if (!(next_cost < cost)) {  // also if it is no number
+    if (!(next_cost < cost)) {  // written so that a NaN is refused, too
       fit.converged = lambda > 1e6;
       lambda *= 10;
       refused = true;

@@ -5,8 +5,8 @@
 #include <array>
 
 #ifdef ASTRO_SANITIZE
-// The library that finds fonts keeps what it has found until the program ends, behind pointers that it stores as offsets, so
-// that the leak checker takes it for lost.
+// The font library keeps its cache until the program ends. It stores pointers as offsets, so the leak checker
+// reports this memory as lost.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }  // NOLINT
 extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }     // NOLINT
 #endif

@@ -18,7 +18,7 @@ struct Paper {
 inline constexpr Paper kA4{"a4", 210, 297};
 inline constexpr Paper kLetter{"letter", 215.9, 279.4};
 
-/// Nothing for any other name.
+/// The paper with this name; nothing if there is none.
 std::optional<Paper> paper_named(std::string_view name);
 
 /// A place on a sheet: millimetres from its upper left corner, x right, y down.

@@ -12,7 +12,7 @@ namespace astro::film::paper {
 
 using Sheet = std::variant<TagSheet, TextSheet>;
 
-/// With what every PDF begins.
+/// The first bytes of every PDF.
 inline constexpr const char* kPdfMark = "%PDF-";
 
 /// A PDF with one page for each sheet. Throws astro::Error where draw() does, and if the pages cannot be made.

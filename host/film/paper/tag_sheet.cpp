@@ -26,7 +26,8 @@ void check(const TagSheet& sheet, const Paper& paper) {
                           sheet.side_mm, paper.width_mm, paper.height_mm, kSmallest_mm, most_mm));
 }
 
-/// A cell in the drawing. The robot's tag is turned by a quarter turn, so that its right side is up.
+/// The corner of a cell in the drawing. The robot's tag is turned by a quarter turn, so that its right side
+/// is up.
 Place corner_of(const TagSheet& sheet, int row, int column) {
   return sheet.role == TagRole::robot
              ? Place{static_cast<double>(row), static_cast<double>(kCells - 1 - column)}
@@ -47,7 +48,7 @@ void draw_tag(Canvas& canvas, const TagSheet& sheet, Place centre) {
     }
   }
   canvas.fill(black, 0);
-  // Half black and half white, so that it shows on both; far too thin to change how a camera reads the cells.
+  // Grey, so that it shows on both black and white; far too thin to change how a camera reads the cells.
   const double arm_mm = std::min(3.0, cell_mm / 4);
   canvas.line({centre.x_mm - arm_mm, centre.y_mm}, {centre.x_mm + arm_mm, centre.y_mm}, 0.3, 0.5);
   canvas.line({centre.x_mm, centre.y_mm - arm_mm}, {centre.x_mm, centre.y_mm + arm_mm}, 0.3, 0.5);
@@ -105,7 +106,7 @@ void draw(Canvas& canvas, const TagSheet& sheet, const Paper& paper) {
   draw_tag(canvas, sheet, centre);
   draw_head(canvas, sheet, centre.x_mm, width_mm);
   const double below_mm = kHead_mm + margin_mm;
-  // Head and tag with its margin, for a robot on which the whole sheet does not fit.
+  // A cutting line around the head and the tag with its margin, for a robot that is smaller than the sheet.
   const double cut_mm = std::max(margin_mm, kLeastWidth_mm) + 2;
   if (sheet.role == TagRole::robot && cut_mm <= paper.width_mm - 2 * kSafe_mm)
     canvas.dashed({centre.x_mm - cut_mm / 2, kSafe_mm, cut_mm, below_mm + 1 - kSafe_mm}, 0.2, 0.6);

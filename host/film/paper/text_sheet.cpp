@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kMargin_mm = 18, kText_mm = 3.9, kLine_mm = 5.6, kBetween_mm = 2.6, kIndent_mm = 8;
 
-/// The words of one line of the text in lines no wider than `width_mm`.
+/// Breaks one line of the text into lines no wider than `width_mm`.
 std::vector<std::string> broken(Canvas& canvas, const std::string& line, double width_mm) {
   std::vector<std::string> lines(1);
   std::istringstream words(line);

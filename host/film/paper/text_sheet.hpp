@@ -18,7 +18,7 @@ struct TextSheet {
   std::vector<Paragraph> paragraphs;
 };
 
-/// Where the text ends, in millimetres from the top; it is for the caller to see that this is on the paper.
+/// Returns where the text ends, in millimetres from the top. The caller checks that this is on the paper.
 double draw(Canvas& canvas, const TextSheet& sheet, const Paper& paper);
 
 }  // namespace astro::film::paper

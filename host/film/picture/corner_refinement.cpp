@@ -13,12 +13,12 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kShortestSide_px = 12, kFarthest_px = 3;
-constexpr double kOffEnds = 0.12;    // of the edge, at either end, where the neighbouring edge blurs it
+constexpr double kOffEnds = 0.12;    // of the edge, left out at either end: the neighbouring edge blurs it
 constexpr double kReach_px = 3.5;    // across the edge to either side, at most
-constexpr double kReachCells = 0.9;  // and less than the cell, behind which the pattern begins
+constexpr double kReachCells = 0.9;  // and at most this part of a cell, because the pattern begins behind it
 constexpr double kStep_px = 0.25;
 constexpr std::size_t kMostSteps = 2 * 14 + 1;
-constexpr float kFloor = 0.15F;          // of the greatest gradient is noise and the pattern's blur
+constexpr float kFloor = 0.15F;          // of the greatest gradient; removes noise and blur of the pattern
 constexpr float kLeastContrast = 0.02F;  // of full white
 
 /// Bilinear interpolation of light. Precondition: 0 <= x <= width - 1, and alike for y.
@@ -38,7 +38,8 @@ struct EdgePoint {
   float contrast;
 };
 
-/// Where the light rises most along `profile`, which goes from black to white.
+/// The edge in a profile of light from black to white, by the centroid of its gradient. Nothing if the
+/// contrast is too low.
 std::optional<EdgePoint> crossing(const std::array<float, kMostSteps>& profile, std::size_t steps,
                                   double reach, double along) {
   float most = 0;
@@ -62,12 +63,12 @@ struct Line {
   double offset = 0, slope = 0;  // across = offset + slope * along
 };
 
-/// Weighted again and again by Tukey's biweight of the distances.
+/// Iteratively reweighted least squares with Tukey's biweight.
 std::optional<Line> robust_line(const std::vector<EdgePoint>& points) {
   std::vector<double> offsets;
   for (const EdgePoint& point : points) offsets.push_back(point.across);
   Line line{median_of(std::move(offsets)), 0};
-  double scale = 1;  // px; the detector's corners may be wrong by that much
+  double scale = 1;  // px; the detector's corners may be off by that much
   for (int round = 0; round < 6; ++round) {
     double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0, wrr = 0;
     for (const EdgePoint& point : points) {
@@ -102,8 +103,7 @@ std::optional<FoundEdge> edge_between(const GrayFrame& frame, const Vector2d& fr
                                       double cell_px) {
   const double length = (to - from).norm();
   const Vector2d along = (to - from) / length;
-  const Vector2d out{-along.y(),
-                     along.x()};  // y points down the picture: corners go round so that this is outward
+  const Vector2d out{-along.y(), along.x()};  // outward, because y points down the picture
   const double reach = std::min(kReach_px, kReachCells * cell_px);
   const auto half = static_cast<std::size_t>(reach / kStep_px);
   const std::size_t steps = 2 * half + 1;

@@ -8,8 +8,9 @@
 
 namespace astro::film {
 
-/// The light that a pixel value of the sRGB tone curve stands for, 0 to 1. Edges of black on white are symmetric in linear
-/// light only: as the camera writes them they seem to lie 0.3 to 0.45 px inside the black.
+/// Linear light, 0 to 1, for each pixel value of the sRGB tone curve. An edge between black and white is
+/// symmetric only in linear light: in the pixel values that a camera writes it seems to lie 0.3 to 0.45 px
+/// inside the black.
 /// Source  IEC 61966-2-1.
 const std::array<float, 256>& linear_light();
 
@@ -19,8 +20,9 @@ struct RefinedTag {
   double contrast = 0;       // of white against black in linear light, 0 to 1, the weakest edge
 };
 
-/// The corners of a tag as intersections of its edges. Each edge is a robust straight line through points that are
-/// found in linear light: across the edge, the centroid of the gradient from black to white less 15 % of its maximum.
+/// The corners of a tag as intersections of its edges. Each edge is a robust straight line through edge
+/// points in linear light. An edge point is the centroid of the gradient across the edge, from black to
+/// white, after 15 % of its maximum is subtracted.
 ///
 /// Accuracy  0.02 px in films without compression, 0.04 px at 14 Mbit/s, 0.1 px at 0.2 Mbit/s; edges keep a
 ///           common shift of some tenths of a pixel along their normals (with_edges_shifted in camera/scene.hpp).

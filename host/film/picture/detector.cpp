@@ -11,7 +11,7 @@
 namespace astro::film {
 namespace {
 
-// libapriltag counts half pixels in 16 bits, and ends the program for a larger picture.
+// libapriltag stores half pixels in 16 bits, and aborts the program if a picture is larger.
 constexpr int kLongestSide_px = 32'767;
 
 }  // namespace
@@ -39,9 +39,10 @@ std::vector<DetectedTag> TagDetector::detect(const GrayFrame& frame, const Windo
                     std::to_string(window.height) + " pixels",
                 DetectorProblem::picture_too_large,
                 {std::to_string(window.width), std::to_string(window.height)});
-  // The library reads beyond a picture that is smaller than one of its tiles.
+  // The library reads out of bounds if a picture is smaller than one of its tiles.
   if (std::min(window.width, window.height) < kTagCells * decimate) return {};
-  // The library reads only, but its type has no const. Its rows need no copy: the stride is that of the whole picture.
+  // The library only reads, although its type is not const. The rows need no copy, because the stride is that
+  // of the whole picture.
   auto* pixels = const_cast<std::uint8_t*>(frame.row(window.top) + window.left);
   image_u8_t image{window.width, window.height, frame.width, pixels};
   library_->detector->quad_decimate = static_cast<float>(decimate);

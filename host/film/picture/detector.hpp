@@ -36,8 +36,9 @@ class TagDetector {
   TagDetector(const TagDetector&) = delete;
   TagDetector& operator=(const TagDetector&) = delete;
 
-  /// Tags with at most one wrong bit, which hardly any other thing looks like. Corners are in the whole picture's pixels. A
-  /// window of fewer pixels than a tag has cells holds none. Throws astro::Error for one of more than 32767 on a side.
+  /// Finds tags with at most one wrong bit; hardly anything else looks like that. Corners are in pixels of
+  /// the whole picture. Finds none in a window that has fewer pixels on a side than a tag has cells. Throws
+  /// astro::Error if a side of the window has more than 32767 pixels.
   std::vector<DetectedTag> detect(const GrayFrame& frame, const Window& window, double decimate);
 
  private:

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostSaid = 65'536;
 
-/// "30000/1001" or "30"; 0 if it is neither.
+/// Reads a ratio such as "30000/1001" or "30"; 0 if the text is neither.
 double ratio_in(const std::string& text) {
   const std::size_t slash = text.find('/');
   const double above = number_in(text.substr(0, slash)).value_or(0);
@@ -37,7 +37,7 @@ Fields fields_in(const std::string& text) {
   std::string section;
   for (std::string line; std::getline(lines, line);) {
     if (line == "[FORMAT]") section = "format.";
-    // A container that states the length of the film only as a whole says N/A for the stream.
+    // A container that states only its own length says N/A for that of the stream.
     if (const std::size_t sign = line.find('='); sign != std::string::npos && line.substr(sign + 1) != "N/A")
       fields.emplace(section + line.substr(0, sign), line.substr(sign + 1));
   }
@@ -50,14 +50,15 @@ double number_of(const Fields& fields, const std::string& name) {
   return std::isfinite(value) && value > -1e9 && value < 1e9 ? value : 0;
 }
 
-/// From the first picture to the end. That of a container that has no more than its whole begins at 0.
+/// The time from the first picture to the end. If only the container states its length, that begins at time
+/// 0, so the start time is subtracted.
 double duration_of(const Fields& fields) {
   if (const double own_s = number_of(fields, "duration"); own_s > 0) return own_s;
   return std::max(
       0.0, number_of(fields, "format.duration") - std::max(0.0, number_of(fields, "format.start_time")));
 }
 
-/// The first box of MP4 and MOV says which of them it is; ffprobe believes the name of the file.
+/// Whether the file begins like MP4 or MOV. ffprobe goes by the file's name instead.
 bool begins_as_film(const std::filesystem::path& film) {
   std::array<char, 8> head{};
   std::ifstream(film, std::ios::binary).read(head.data(), head.size());
@@ -112,7 +113,7 @@ FilmInfo read_film_info(const std::filesystem::path& film) {
   info.frames_per_s = number_of(fields, "avg_frame_rate");
   info.duration_s = duration_of(fields);
   info.frames = static_cast<std::size_t>(std::max(0.0, number_of(fields, "nb_frames")));
-  // No phone has more than 8K, 7680 x 4320. To look for tags takes ten bytes for each pixel.
+  // No phone has more than 8K, 7680 x 4320. The search for tags takes ten bytes for each pixel.
   constexpr int kLeastSide_px = 64, kMostSide_px = 8192;
   if (info.width < kLeastSide_px || info.height < kLeastSide_px || info.width > kMostSide_px ||
       info.height > kMostSide_px)

@@ -8,7 +8,7 @@
 
 namespace astro::film {
 
-/// What is no film that can be followed. Values: the file; its pictures' width and height.
+/// Why a film cannot be followed. Values: the file; of unusual_size also its pictures' width and height.
 enum class FilmFileProblem { not_a_film, unusual_size };
 
 /// What the container of a film says.
@@ -20,7 +20,7 @@ struct FilmInfo {
   double duration_s = 0;    // 0: not stated
   std::size_t frames = 0;   // 0: not stated
 
-  /// The part of the film that `seconds` are; 0 if nobody states its length.
+  /// `seconds` as a fraction of the film's length; 0 if its length is not stated.
   double part(double seconds) const {
     return duration_s > 0 ? std::clamp(seconds / duration_s, 0.0, 1.0) : 0;
   }
@@ -32,8 +32,10 @@ struct FilmInfo {
 ///         be followed, no ffprobe.
 FilmInfo read_film_info(const std::filesystem::path& film);
 
-/// How ffmpeg and ffprobe are given a film: as a file, never as an option or an address, whatever its name; and only if it is a
-/// container that holds pictures. A playlist (HLS, ffconcat) would name other files, pipes and addresses, and have them read.
+/// The arguments that pass a film to ffmpeg and ffprobe. The film is always read as a file, never as an
+/// option or an address, whatever its name, and only if it is a container that holds pictures. Playlists
+/// (HLS, ffconcat) are excluded, because they can name other files, pipes and addresses, which would then be
+/// read.
 std::vector<std::string> as_input(const std::filesystem::path& film);
 
 }  // namespace astro::film

@@ -11,14 +11,15 @@
 
 namespace astro::film {
 
-/// Values: the name of the program, and for how many milliseconds.
+/// What goes wrong while a program reads a film. Values: the program's name, and for how many milliseconds it
+/// was silent.
 enum class FilmProgramProblem { silent };
 
-/// A program that reads films, which runs beside this one: its output as bytes, what it says on its error
-/// stream as lines.
+/// A program that reads films, run as a child process. Its output is read as bytes, its error stream as
+/// lines.
 ///
-/// Errors  astro::Error if the program is not installed or cannot be started, or if it neither writes nor ends
-///         for as long as `patience`: what it reads may be a pipe that nobody writes to.
+/// Errors  astro::Error if the program is not installed or cannot be started, or if it neither writes nor
+///         ends for as long as `patience`, for example because it reads a pipe that nobody writes to.
 class FilmProgram {
  public:
   /// `words`: the program, found along PATH, and its arguments. `line` is called while read() or finish() runs.
@@ -28,7 +29,7 @@ class FilmProgram {
   /// Fills `bytes`; returns how many came, which are fewer only at the end of the output.
   std::size_t read(std::span<std::uint8_t> bytes);
 
-  /// Reads the rest of both streams, and waits. Whether the program ended well.
+  /// Reads the rest of both streams, and waits for the program to end. Returns whether it succeeded.
   bool finish();
 
  private:

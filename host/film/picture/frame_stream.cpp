@@ -14,15 +14,16 @@ std::vector<std::string> words_for(const std::filesystem::path& film, FrameStrea
   std::vector<std::string> words{"ffmpeg",     "-hide_banner", "-nostdin", "-nostats",      "-loglevel",
                                  "level+info", "-threads",     "1",        "-noautorotate", "-copyts"};
   if (pictures == FrameStream::Pictures::key_only) words.insert(words.end(), {"-skip_frame", "nokey"});
-  // showinfo reports each picture's time in whole units of the time base, of which rawvideo has nothing. With a time base of one picture
-  // the muxer would complain about films that are a little slower or faster than they say.
+  // Rawvideo has no times, so showinfo reports each picture's time in whole units of the time base. The
+  // encoder keeps the film's time base (-1). With one unit per picture the muxer would complain about films
+  // whose rate differs a little from the stated one.
   for (std::string& word : as_input(film)) words.push_back(std::move(word));
   words.insert(words.end(), {"-map", "0:v:0", "-vf", "showinfo=checksum=0", "-fps_mode", "passthrough",
                              "-enc_time_base", "-1", "-pix_fmt", "gray", "-f", "rawvideo", "pipe:1"});
   return words;
 }
 
-/// The whole number behind `name` and blanks.
+/// The whole number that follows `name` and blanks.
 std::optional<long long> whole_behind(std::string_view line, std::string_view name) {
   const std::size_t at = line.find(name);
   if (at == std::string_view::npos) return std::nullopt;
@@ -43,7 +44,7 @@ FrameStream::FrameStream(const std::filesystem::path& film, const FilmInfo& info
 
 void FrameStream::take_line(std::string_view line) {
   if (line.find("showinfo") == std::string_view::npos) {
-    if (line.starts_with("[rawvideo")) return;  // about times, which it does not write
+    if (line.starts_with("[rawvideo")) return;  // complains about times, which rawvideo does not write
     if (line.find("[error]") != std::string_view::npos || line.find("[fatal]") != std::string_view::npos)
       complaint_ = line.substr(line.rfind(']') + 1);
     return;

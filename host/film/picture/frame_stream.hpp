@@ -27,7 +27,7 @@ class FrameStream {
   /// Overwrites `frame` with the next picture; false at the end of the film.
   bool next(GrayFrame& frame);
 
-  /// What the decoder complained about last; "" if about nothing.
+  /// The decoder's last error message; "" if there was none.
   const std::string& complaint() const { return complaint_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a film lacks, as the end of the sentence that says so.
+/// Advice for each defect of a film. It is the end of the sentence that names the defect.
 namespace astro::film::how_to {
 
 inline constexpr const char* kTakeOriginal =

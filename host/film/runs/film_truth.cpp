@@ -14,7 +14,8 @@
 namespace astro::film {
 namespace {
 
-// A run that a film shows is alike to 0.999; another drive of the same programme has its turns elsewhere.
+// A run has a likeness of 0.999 in the film that shows it. Another drive of the same programme turns at other
+// times.
 constexpr double kAlike = 0.97, kShown = 0.5;
 constexpr double kMargin_s = 0.3;
 
@@ -29,7 +30,7 @@ struct RunWindow {
   double from_s = 0, to_s = 0;
 };
 
-/// What of a run a film does not show.
+/// A part of a run that a film does not show.
 struct Lack {
   std::string what;  // "the film ends 3.0 s before it"
   const char* advice = how_to::kWholeField;
@@ -41,7 +42,7 @@ RunWindow window_of(const recording::Run& run, double offset_s) {
           1e-6 * static_cast<double>(run.odometry.back().time_us) - offset_s};
 }
 
-/// The worst that lasts longer than a second. Nothing if all is there.
+/// The worst part that the film does not show for longer than a second. Nothing if there is none.
 std::optional<Lack> lack_of(const RunWindow& run, const film::FilmTrack& track) {
   constexpr double kLong_s = 1;
   const film::FilmSightings& seen = track.sightings;
@@ -97,7 +98,8 @@ std::vector<Shown> shown_runs(const experiment::RunSet& set, const std::vector<N
   return best;
 }
 
-/// Wheels that are exchanged turn the other way; the estimator has the words for that.
+/// If no run is found, searches with the turns reversed: exchanged wheels turn the other way, and the
+/// estimator then reports that.
 std::vector<Shown> shown_runs(const experiment::RunSet& set, const std::vector<NamedFilm>& films) {
   std::vector<Shown> shown = shown_runs(set, films, false);
   if (std::any_of(shown.begin(), shown.end(), is_shown)) return shown;
@@ -113,7 +115,7 @@ void keep_at(std::vector<Value>& list, const std::vector<std::size_t>& kept) {
   list = std::move(result);
 }
 
-/// Takes out what no film shows, and what it shows in part only.
+/// Takes out the runs that no film shows, and those that it shows too little of.
 void leave_out_unseen(experiment::RunSet& set, std::vector<Shown>& shown, const std::vector<NamedFilm>& films,
                       FilmReport& report) {
   std::vector<std::size_t> kept;
@@ -159,7 +161,8 @@ std::vector<recording::TruthSample> cut_for(const recording::Run& run,
   return samples;
 }
 
-/// A readout moves all poses of a film by some 10 ms, which the margins of the runs bear.
+/// Changing the readout time shifts all poses of a film by some 10 ms, for which the margins of the runs
+/// suffice.
 void give_truth(experiment::RunSet& set, const std::vector<NamedFilm>& films, const std::vector<Shown>& shown,
                 double readout_s) {
   std::vector<std::vector<film::FilmPose>> poses;

@@ -12,10 +12,10 @@
 /// Films as the ground truth of runs.
 namespace astro::film {
 
-/// Values: the name of the run.
+/// Why a run cannot get truth from a film. Values: the name of the run.
 enum class FilmedRunProblem { no_odometry };
 
-/// A film that was followed, and what its errors call it.
+/// A film that was followed, and its name in error messages.
 struct NamedFilm {
   std::string name;
   film::FilmTrack track;
@@ -35,13 +35,14 @@ struct FilmReport {
   std::vector<Remark> remarks;
 };
 
-/// Gives each run the poses of the film that shows it, on the robot's clock to some 10 ms, with a margin of 0.3 s at either end;
-/// whatever truth it had is replaced. Runs that no film shows, of which it shows less than half, or in which the robot drives out of
-/// the picture are taken out of the set, and a remark says so. The readout of the
-/// camera is given, or found from the odometry: with the right one, wheels and film agree best.
+/// Replaces the truth of each run by the poses of the film that shows it, on the robot's clock to some 10 ms,
+/// with a margin of 0.3 s at either end. A run is taken out of the set, and a remark says so, if no film
+/// shows it, if the film shows less than half of it, or if the robot drives out of the picture. If
+/// `readout_s` is empty, the camera's readout time is found from the odometry: with the right one, wheels and
+/// film agree best.
 ///
-/// Errors  astro::Error if no run is left, with what the film lacks of the first, and what trajectories_of and calibration::estimate_ml throw while the
-///         readout is searched for.
+/// Errors  astro::Error if no run is left, which says what the film does not show of the first one; and what
+///         trajectories_of and calibration::estimate_ml throw while the readout time is searched for.
 /// Cost    about ten calibrations.
 FilmReport attach_films(experiment::RunSet& set, const std::vector<NamedFilm>& films,
                         std::optional<double> readout_s);

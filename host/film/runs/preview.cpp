@@ -16,7 +16,7 @@ namespace astro::film {
 namespace {
 
 struct Colour {
-  double red, green, blue;  // of 1
+  double red, green, blue;  // 0 to 1
 };
 
 constexpr Colour kFloor{0, 0.78, 0.24}, kRobot{0.9, 0.12, 0.12}, kPath{0.16, 0.47, 1};
@@ -47,7 +47,7 @@ class Drawing {
   }
 
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Colour colour) {
-    // A point behind the camera, or far beside the picture, has no place on it.
+    // A point behind the camera, or far beside the picture, cannot be drawn.
     constexpr double kFarthest_px = 20'000;
     if (!(from.cwiseAbs().maxCoeff() < kFarthest_px) || !(to.cwiseAbs().maxCoeff() < kFarthest_px)) return;
     choose(colour);
@@ -108,7 +108,7 @@ std::vector<std::uint8_t> preview_png(const std::filesystem::path& film, const F
     return project(scene.camera, {pose.pose.x_m, pose.pose.y_m, scene.robot_height_m});
   };
   const std::vector<FilmPose>& poses = track.found.poses;
-  constexpr double kGap_s = 0.5;  // where the tag was hidden the path is not known
+  constexpr double kGap_s = 0.5;  // the path is not known where the tag was hidden
   for (std::size_t i = 1; i < poses.size(); ++i)
     if (poses[i].time_s - poses[i - 1].time_s < kGap_s)
       drawing.line(seen(poses[i - 1]), seen(poses[i]), kPath);

@@ -8,8 +8,9 @@
 
 namespace astro::film {
 
-/// The first picture of the film with the floor tags (green, with their numbers), the robot's tag where it is then (red), and the
-/// path of the robot's tag all through the film (blue), as the scene has them: as PNG.
+/// A PNG of the film's first picture with the floor tags (green, with their numbers), the robot's tag at that
+/// moment (red) and the path of the robot's tag through the whole film (blue), drawn where the scene puts
+/// them.
 ///
 /// Errors  those of FrameStream.
 std::vector<std::uint8_t> preview_png(const std::filesystem::path& film, const FilmTrack& track);

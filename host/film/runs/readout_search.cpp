@@ -17,7 +17,7 @@ struct Trial {
   double readout_s, chi_square;
 };
 
-/// The lowest point of the parabola through three trials, and where it is higher by one.
+/// The minimum of the parabola through three trials, and the distance at which it is higher by 1.
 std::optional<Readout> vertex(const Trial& a, const Trial& b, const Trial& c) {
   const double ab = (b.chi_square - a.chi_square) / (b.readout_s - a.readout_s);
   const double bc = (c.chi_square - b.chi_square) / (c.readout_s - b.readout_s);
@@ -37,7 +37,7 @@ std::optional<Readout> find_readout(const std::function<experiment::RunSet(doubl
     return calibration::estimate_ml(experiment::trajectories_of(set), loaded, options);
   };
   const calibration::MlEstimate start = estimated(usual_s);
-  // With one and the same noise for all, so that chi-square is the likelihood.
+  // All trials use the same noise, so that differences in chi-square are those in likelihood.
   options.noise = start.noise;
   options.spacing_m = start.spacing_m;
   options.with_e = start.factors.e != 0;
@@ -59,7 +59,8 @@ std::optional<Readout> find_readout(const std::function<experiment::RunSet(doubl
   const auto fine = vertex(tried(near_s - kFine_s), tried(near_s), tried(near_s + kFine_s));
   Readout found = fine && std::abs(fine->seconds - near_s) < 2 * kFine_s ? *fine : *rough;
   found.seconds = std::clamp(found.seconds, -kMost_s, kMost_s);
-  // The noise may be too large for readouts that fit: what remains at the best one scales the error.
+  // The noise was estimated at the usual readout time, so it may be too large at the best one. The chi-square
+  // there scales the standard error.
   found.sigma_s = rough->sigma_s * std::sqrt(std::min(1.0, lowest->chi_square / freedom));
   constexpr double kUseless_s = 0.015;
   if (!(found.sigma_s < kUseless_s)) return std::nullopt;

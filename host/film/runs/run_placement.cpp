@@ -8,8 +8,8 @@
 namespace astro::film {
 namespace {
 
-constexpr double kTurnArm_m = 0.15;   // at which a turn counts as a speed
-constexpr double kSpeedWeight = 0.5;  // the tag's speed is not the robot's while it turns
+constexpr double kTurnArm_m = 0.15;   // lever arm by which a turn rate counts as a speed
+constexpr double kSpeedWeight = 0.5;  // because the tag's speed differs from the robot's while it turns
 constexpr double kHalfWindow_s = 0.1, kGap_s = 0.35;
 
 struct Place {
@@ -50,11 +50,11 @@ MotionRates rates_of_places(const std::vector<Place>& places) {
 }
 
 constexpr double kStep_s = MotionRates::kBin_s;
-constexpr double kApart_s = 2;       // places that are nearer are one
-constexpr double kPlausible = 0.85;  // of the likeness that runs have each for itself
+constexpr double kApart_s = 2;       // places that are nearer count as one
+constexpr double kPlausible = 0.85;  // of the mean likeness of the runs placed alone
 constexpr std::size_t kMostPlaces = 24;
 
-/// Of the run's middle: both together overlap by at least half of the shorter one.
+/// The range of offsets in which run and film overlap by at least half of the run.
 struct Offsets {
   double from, to;
 };
@@ -63,7 +63,7 @@ Offsets possible(const MotionRates& run, const MotionRates& film) {
   return {run.first_s + half - film.end_s(), run.end_s() - half - film.first_s};
 }
 
-/// To a hundredth of a bin around a rough offset.
+/// Refines a rough offset to a hundredth of a bin.
 double refined(std::span<const MotionRates* const> runs, const MotionRates& film, double rough_s,
                double reach_s) {
   const auto value = [&](double offset_s) {
@@ -84,7 +84,7 @@ double refined(std::span<const MotionRates* const> runs, const MotionRates& film
   return best_s;
 }
 
-/// All places of one run that are nearly as good as the best, the best first.
+/// All places of one run that are nearly as good as the best; the best is the first.
 std::vector<Placement> places_of(const MotionRates& run, const MotionRates& film) {
   constexpr double kWorse = 0.15;
   const Offsets range = possible(run, film);
@@ -122,7 +122,7 @@ bool one_after_the_other(std::span<const MotionRates> runs) {
   return true;
 }
 
-/// One offset for all, then each run's own within what clocks drift.
+/// Finds one offset for all runs, then refines each run's own offset within the drift of the clocks.
 std::vector<Placement> placed_together(std::span<const MotionRates> runs, const MotionRates& film) {
   constexpr double kDrift_s = 0.15;
   double from = std::numeric_limits<double>::infinity(), to = -from;
@@ -151,7 +151,8 @@ std::vector<Placement> placed_together(std::span<const MotionRates> runs, const 
   return places;
 }
 
-/// Places in the order of the runs that do not overlap and are most alike in all (dynamic programming over the candidates).
+/// The places, in the order of the runs, that do not overlap and have the largest sum of likenesses (dynamic
+/// programming over the candidates).
 std::vector<Placement> placed_in_order(std::span<const MotionRates> runs,
                                        const std::vector<std::vector<Placement>>& candidates,
                                        std::span<const std::size_t> order) {
@@ -166,7 +167,7 @@ std::vector<Placement> placed_in_order(std::span<const MotionRates> runs,
   const auto end = [&](std::size_t k, std::size_t c) {
     return runs[order[k]].end_s() - candidates[order[k]][c].offset_s;
   };
-  constexpr double kOverlap_s = 0.5;  // rests at the ends
+  constexpr double kOverlap_s = 0.5;  // because runs rest at their ends
   for (std::size_t k = 0; k < order.size(); ++k)
     for (std::size_t c = 0; c < candidates[order[k]].size(); ++c) {
       Step step{k == 0 ? 0 : -1e9, 0};
@@ -218,7 +219,7 @@ Likeness likeness(const MotionRates& run, const MotionRates& film, double offset
   const float part = static_cast<float>(shift - whole);
   const auto first = static_cast<std::ptrdiff_t>(whole), size = static_cast<std::ptrdiff_t>(film.bins.size());
   float both = 0, run_squares = 0, film_squares = 0, shown = 0;
-  double sums[4] = {};  // in blocks, because a long sum of floats loses digits
+  double sums[4] = {};  // by blocks, because a long sum of floats loses digits
   const auto add_block = [&] {
     std::size_t k = 0;
     for (float* const value : {&both, &run_squares, &film_squares, &shown})
@@ -262,7 +263,7 @@ std::vector<Placement> place_runs(std::span<const MotionRates> runs, const Motio
   }
   if (one_after_the_other(runs)) {
     std::vector<Placement> together = placed_together(runs, film);
-    // A clock that started again between two runs shows here: together they fit badly.
+    // If the robot's clock restarted between two runs, they fit badly with one offset.
     if (runs.size() == 1) together.front().ambiguous = has_rival(candidates.front());
     if (mean_likeness(together) > kPlausible * alone || runs.size() == 1) return together;
   }

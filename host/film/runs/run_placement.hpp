@@ -7,16 +7,18 @@
 #include "host/film/track/film_poses.hpp"
 #include "host/recording/run.hpp"
 
-/// Where in a film runs are, by how fast the robot turns and drives in both.
+/// Finds where in a film each run is, by how fast the robot turns and drives in both.
 namespace astro::film {
 
-/// A moment's rates, both in m/s: half a turn a second to the left counts as 0.47 m/s; the speed has no sign.
+/// The rates of motion at one moment, both in m/s. A turn rate counts as the speed at an arm of 0.15 m: half
+/// a turn a second to the left is 0.47 m/s. The speed has no sign.
 struct MotionRate {
   float turn = 0, speed = 0;
   bool known = false;
 };
 
-/// Rates in equal steps of time: what a film and a robot's odometry have in common before their clocks are known.
+/// Rates in equal time steps. A film and a robot's odometry can be compared by them before the clock offset
+/// is known.
 struct MotionRates {
   double first_s = 0;
   std::vector<MotionRate> bins;
@@ -25,10 +27,10 @@ struct MotionRates {
   double end_s() const { return first_s + kBin_s * static_cast<double>(bins.size()); }
 };
 
-/// Of a film, by its own times. Unknown where the tag was hidden.
+/// The rates of a film, by its own times; unknown where the tag was hidden.
 MotionRates rates_of(const std::vector<film::FilmPose>& poses);
 
-/// Of a run, by the robot's times in seconds.
+/// The rates of a run, by the robot's times in seconds.
 MotionRates rates_of(const recording::Run& run);
 
 struct Likeness {
@@ -50,9 +52,10 @@ struct Placement {
   bool ambiguous = false;  // another place fits as well, and only the order of the runs decided
 };
 
-/// Places all runs in one film by sliding their rates along it. Runs that one clock of the robot timed one after the other share
-/// one offset, so a square that is driven five times is not taken for another; where the clocks overlap (each log begins
-/// at zero), each run is placed alone, and where several places fit, in the order of the runs.
+/// Places all runs in one film by sliding their rates along it. If the runs follow each other on one clock of
+/// the robot, they share one offset, so that five runs of the same square are not confused. If their times
+/// overlap (because each log begins at zero), or one offset fits badly, each run is placed alone; if several
+/// places fit, the order of the runs decides.
 ///
 /// `order`  of the runs in time, as far as it is known: indices of `runs`
 /// Errors   none; a run that is not in the film has a likeness far below 1.

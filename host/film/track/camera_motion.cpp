@@ -11,10 +11,10 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kSmooth_s = 2.5;     // to either side
-constexpr double kOutlier_px = 1;     // a tag that moves otherwise than the others is half hidden
+constexpr double kOutlier_px = 1;     // a corner that is further from the median is of a half hidden tag
 constexpr double kWorthIt_px = 0.25;  // motions below this are noise of the codec
 
-/// The mean of what lies near the median.
+/// The mean of the values near the median.
 double robust_mean(const std::vector<double>& values) {
   const double middle = median_of(values);
   std::vector<double> far;
@@ -38,7 +38,7 @@ TagCorners mean_of(const std::vector<FloorLook>& looks, std::size_t tag, const T
   return mean;
 }
 
-/// A corner's mean place and by how much it is off it.
+/// A corner's mean place and its offset from it.
 struct Offset {
   Vector2d place, off;
 };
@@ -60,10 +60,10 @@ std::vector<Offset> offsets_of(const FloorLook& look, const std::vector<TagCorne
   return all;
 }
 
-/// A shift, and where several tags show it a turn and a growth.
+/// Estimates the shift, and also turn and growth if the corners are far enough apart.
 std::optional<PictureMotion> motion_at(const FloorLook& look, const std::vector<TagCorners>& means,
                                        const Vector2d& about) {
-  constexpr double kShort_px = 200;  // a base line that shows no turn
+  constexpr double kShort_px = 200;  // too short a baseline to show a turn
   const std::vector<Offset> offsets = offsets_of(look, means);
   if (offsets.size() < 4) return std::nullopt;
   PictureMotion motion;

@@ -15,8 +15,8 @@
 namespace astro::film {
 namespace {
 
-constexpr double kDoubtful = 3.5;  // standard errors; one in two thousand figures that are right
-constexpr double kUneasy = 2;      // one in twenty
+constexpr double kDoubtful = 3.5;  // standard errors; one in two thousand correct figures is as far off
+constexpr double kUneasy = 2;      // one in twenty is
 
 using FigureMember = std::optional<double> FilmFigures::*;
 
@@ -47,7 +47,7 @@ FilmFigures without(FilmFigures given, const FigureCheck& figure) {
   return given;
 }
 
-/// What this figure is without it, from the scene that was found so.
+/// The value of a figure in a scene that was found without it.
 double value_in(const Scene& scene, const FilmFigures& given, const FigureCheck& figure) {
   switch (figure.kind) {
     case FigureKind::floor_side:
@@ -87,13 +87,14 @@ double worst(const std::vector<FigureCheck>& checks) {
   return most;
 }
 
-/// With a height or a side that is far off, the robot's tag fits no picture, and then says nothing against it.
+/// Whether the robot's tag fits the pictures. With a height or a side that is far off it fits none, and then
+/// does not contradict that figure.
 bool shows_robot(const SceneFit& fit) {
   constexpr double kFits_px = 1;
   return !fit.robot.empty() && fit.robot_rms_px < kFits_px;
 }
 
-/// Refits with other figures; nothing unless those agree, and the robot's tag is above the floor.
+/// Refits with other figures. Nothing unless these agree, and the robot's tag is above the floor.
 std::optional<SceneFit> agreeing_fit(const FilmFigures& others, const Refit& refit) {
   try {
     SceneFit fit = refit(others);
@@ -102,12 +103,12 @@ std::optional<SceneFit> agreeing_fit(const FilmFigures& others, const Refit& ref
       return fit;
   } catch (const Interrupted&) {
     throw;
-  } catch (const Error&) {  // no camera fits: these figures explain nothing
+  } catch (const Error&) {  // if no camera fits, these figures are no explanation
   }
   return std::nullopt;
 }
 
-/// A figure with what it would be instead.
+/// A wrong figure, and its corrected value.
 struct Correction {
   FigureCheck figure;
   double value_m;
@@ -134,7 +135,7 @@ Explanation by_figure(const FilmFigures& given, const Correction& one) {
       fmt::format("{} is {} and not {}", name, found, stated), {name, found, stated}, is_gross(given, one)};
 }
 
-/// All of them with `joint` between, as a remark that `begins` so.
+/// A remark that begins with `begins` and lists all explanations, separated by `joint`.
 Remark together(const std::string& begins, const std::vector<Explanation>& all, const char* joint,
                 FilmProblem kind) {
   std::vector<std::string> clauses, values;
@@ -148,7 +149,7 @@ Remark together(const std::string& begins, const std::vector<Explanation>& all, 
 
 bool all_gross(const std::vector<Explanation>& all) { return std::ranges::all_of(all, &Explanation::gross); }
 
-/// What nobody gave is not as usual: goes on without what is usual. unusual_sides() speaks of the sides.
+/// An assumed figure is unusual: continues without the assumption. unusual_sides() reports the sides.
 std::optional<FigureDoubt> unusual(const FilmFigures& given, const Refit& refit) {
   if (given.floor_side_m && given.robot_side_m && given.robot_height_m) return std::nullopt;
   FilmFigures open = given;
@@ -185,7 +186,7 @@ std::optional<Remark> exchange(const FilmFigures& given, const Refit& refit) {
                   "side and height of the robot's tag");
 }
 
-/// Both sides are wrong by one factor, as a printer scales.
+/// Both sides are wrong by a common factor, as a printer scales.
 std::optional<Explanation> printed_smaller(const FilmFigures& given, const Refit& refit) {
   constexpr double kSame = 0.015;
   if (!given.floor_side_m || !given.robot_side_m || given.tapes.empty()) return std::nullopt;
@@ -238,7 +239,7 @@ double growth_of_error(const std::vector<FigureCheck>& checks) {
 }
 
 std::vector<UnusualSide> unusual_sides(const FilmFigures& given, const Scene& scene) {
-  constexpr double kUnusual = 0.03;  // a printer that fits a sheet to the page, or a figure that is wrong
+  constexpr double kUnusual = 0.03;  // caused by a printer that fits sheets to the page, or by a wrong figure
   const Figures usual = figures_with_errors(FilmFigures{});
   std::vector<UnusualSide> all;
   const auto look = [&](FigureKind kind, double usual_m, double found_m) {
@@ -260,7 +261,7 @@ std::optional<FigureDoubt> doubt_about_figures(const FilmFigures& given, const S
   const std::vector<Explanation> all = explanations(given, checks, refit);
   if (all.size() != 1)
     if (const auto exchanged = exchange(given, refit)) return FigureDoubt{*exchanged, true, given};
-  if (all.empty() && (!robot_fits || off < kDoubtful)) return std::nullopt;  // no figure is to blame
+  if (all.empty() && (!robot_fits || off < kDoubtful)) return std::nullopt;  // no figure explains it
   if (all.empty()) return several(given, checks);
   const Remark remark = all.size() == 1 ? together("by the film and all else that was measured, ", all, "",
                                                    FilmProblem::figure_wrong)

@@ -56,7 +56,7 @@ bool drives(const FilmPose& pose) {
          std::abs(pose.velocity.omega_radps) > kTurns_radps;
 }
 
-/// By how much the pose at `to` misses what a speed makes of that at `from`.
+/// The difference between the pose at `to` and that extrapolated from `from` with a speed.
 struct Miss {
   double way_m, turn_rad;
 };
@@ -74,8 +74,9 @@ RobotVelocity mean_speed(const FilmPose& from, const FilmPose& to) {
           (to.pose.theta_rad - from.pose.theta_rad) / dt_s};
 }
 
-/// Where the robot is elsewhere in the next picture than both its speed before and its speed after would bring it, for good: one
-/// wrong picture is no jump. Where it was hidden for long nothing is said.
+/// The time at which the robot jumps: its next pose differs from what both the speed before and the speed
+/// after extrapolate. A single wrong picture does not count as a jump, nor does a move while the tag was
+/// hidden for long.
 std::optional<double> jump_in(const std::vector<FilmPose>& poses) {
   constexpr double kLeap_m = 0.04, kLeap_mps = 0.5, kLeap_rad = 0.15, kLeap_radps = 2, kHidden_s = 0.7;
   constexpr std::size_t kAround = 4;
@@ -102,7 +103,7 @@ bool lies_on_floor(const FloorSurvey& survey, int id) {
                      [&](const SeenFloorTag& tag) { return tag.id == id; });
 }
 
-/// The only other tag that moves, if the robot's never does.
+/// The only other tag that moves, if the robot's tag never moves.
 std::optional<int> moves_instead(const FloorSurvey& survey) {
   constexpr double kStill_px = 4;
   constexpr std::size_t kLeastSightings = 3;
@@ -146,7 +147,7 @@ void refuse_survey(const fs::path& film, const FilmInfo& info, const FloorSurvey
     throw Error(
         fmt::format("{}: {} is at two places at {:.1f} s", quoted(film), robot, *survey.two_robots_s) +
         how_to::kOneRobot);
-  // One tag that is not the robot's may be carried through the picture; several move only if the picture does.
+  // Somebody may carry one other tag through the picture; several move only if the picture itself moves.
   if (survey.moving.size() >= 2 && survey.moving.size() > survey.floor.size())
     throw Error(
         fmt::format("{}: the camera was moved, or its stabilisation moves the picture: floor tags {} are not "
@@ -195,7 +196,7 @@ void refuse_sightings(const fs::path& film, const FilmInfo& info, const FloorSur
     throw Error(fmt::format("{}: the robot's tag is at two places at {:.1f} s", quoted(film),
                             *sightings.two_robots_s) +
                 how_to::kOneRobot);
-  // One that is too small to be followed was seen in the survey, which looks closer.
+  // A tag that is too small to be followed was still seen in the survey, which searches more closely.
   std::vector<double> sides, widths;
   for (const auto& one : survey.robot) sides.push_back(shortest_side(one.corners));
   for (const RobotTagSeen& one : sightings.robot) {
@@ -260,13 +261,13 @@ void refuse_track(const fs::path& film, const FilmTrack& track) {
 
 namespace {
 
-/// At the end the robot still drives: the film was stopped too early.
+/// Whether the robot still drives at the end, which means that the film was stopped too early.
 bool drives_at_end(const FilmTrack& track) {
   const FilmPose& last = track.found.poses.back();
   return track.sightings.last_s - last.pts_s < 0.2 && drives(last);
 }
 
-/// The robot drives when its tag leaves the picture.
+/// Whether the robot drives when its tag leaves the picture.
 bool drives_out(const FilmTrack& track, const HiddenSpan& span) {
   constexpr double kJust_s = 0.2;
   return span.left_picture &&
@@ -275,7 +276,8 @@ bool drives_out(const FilmTrack& track, const HiddenSpan& span) {
          });
 }
 
-/// Before the tag is seen first and after it is seen last, nothing is said of a robot that stands.
+/// Adds a remark for each span. Before the tag is first seen and after it is last seen, there is none unless
+/// the robot drives out of the picture.
 void say_hidden(const FilmTrack& track, std::vector<Remark>& to) {
   constexpr std::size_t kMostSaid = 5;
   std::size_t said = 0, more = 0;
@@ -304,7 +306,7 @@ bool ever_moves(const FilmTrack& track) {
   });
 }
 
-/// Part by which the focal length may be wrong.
+/// The relative standard error of the focal length.
 double focal_length_error(const FilmTrack& track) {
   return std::sqrt(track.covariance(0, 0)) / track.scene.camera.f_px;
 }

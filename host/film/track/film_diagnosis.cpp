@@ -23,7 +23,7 @@ GrayFrame mirrored(const GrayFrame& frame) {
   return other;
 }
 
-/// Twice as large, bilinear.
+/// Enlarges a picture to twice its size, bilinearly.
 GrayFrame enlarged(const GrayFrame& frame) {
   GrayFrame other{2 * frame.width, 2 * frame.height, {}, frame.pts_s, frame.key};
   other.pixels.resize(4 * frame.pixels.size());
@@ -47,14 +47,14 @@ std::optional<double> side_of(TagDetector& detector, const GrayFrame& frame, dou
   return std::nullopt;
 }
 
-/// Steps of brightness over one pixel and over sixteen: of a sharp picture the greatest are about equal, of one that is out of focus
-/// those over one pixel are far smaller.
+/// Compares the largest brightness steps over one pixel with those over sixteen. In a sharp picture they are
+/// about equal; in one that is out of focus those over one pixel are far smaller.
 bool is_blurred(const GrayFrame& frame) {
   constexpr int kFar_px = 16;
-  constexpr double kGreatest = 0.002;  // part of the picture that the greatest steps take: some tags' edges
-  constexpr int kContrast = 50;        // less shows nothing, or is noise
+  constexpr double kGreatest = 0.002;  // part of the picture with the largest steps: the edges of some tags
+  constexpr int kContrast = 50;        // a smaller step shows nothing, or is noise
   constexpr double kSoft =
-      0.2;  // of a lens with 0.7 px it is 0.55; of one with 2 px, at which tags are read no more, 0.2
+      0.2;  // a lens with 0.7 px gives 0.55, one with 2 px, at which tags cannot be read, 0.2
   std::array<std::size_t, 256> near{}, far{};
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x + kFar_px < frame.width; ++x) {

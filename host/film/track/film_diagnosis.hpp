@@ -15,8 +15,8 @@ struct TagDiagnosis {
   double side_px = 0;  // of a tag that is too small or blurred
 };
 
-/// Looks at some key pictures mirrored, enlarged and reduced, for a tag whose id is one that is looked for; if there is none, at
-/// whether anything in them is sharp.
+/// Searches some key pictures, mirrored, enlarged and reduced, for a tag with a wanted id. If there is none,
+/// checks whether anything in the pictures is sharp.
 ///
 /// Cost  about one second for each of at most six pictures.
 TagDiagnosis why_no_tag(const std::filesystem::path& film, const FilmInfo& info,

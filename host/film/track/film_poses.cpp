@@ -10,7 +10,7 @@
 namespace astro::film {
 namespace {
 
-constexpr double kNeighbours_s = 0.15;  // pictures further apart say nothing about the speed between them
+constexpr double kNeighbours_s = 0.15;  // pictures further apart do not show the speed between them
 
 RobotVelocity velocity_between(const FilmPose& from, const FilmPose& to) {
   const double dt_s = to.time_s - from.time_s;
@@ -30,7 +30,8 @@ void add_velocities(std::vector<FilmPose>& poses) {
   }
 }
 
-/// Keeps `poses` and `seen` in step. Refines from the poses as they are, with their velocities.
+/// Refines the poses, starting from their present values and velocities. Removes a pose that does not
+/// converge from both lists, so that they stay aligned.
 void refine(const Scene& scene, std::vector<FilmPose>& poses, std::vector<RobotTagSeen>& seen) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -58,7 +59,8 @@ void drop_misfits(std::vector<FilmPose>& poses) {
   std::erase_if(poses, [&](const FilmPose& pose) { return pose.rms_px > limit; });
 }
 
-/// Rows may be read so that the tag of the next picture is seen before.
+/// Drops poses that are not later than the one before: if the rows are read slowly, the tag in the next
+/// picture may be seen earlier.
 void drop_unordered(std::vector<FilmPose>& poses) {
   std::vector<FilmPose> ordered;
   for (const FilmPose& pose : poses)
@@ -94,7 +96,7 @@ FilmPoses film_poses(const Scene& scene, const std::vector<RobotTagSeen>& all) {
   add_velocities(found.poses);
   double squares = 0;
   for (const FilmPose& pose : found.poses) squares += 8 * pose.rms_px * pose.rms_px;
-  // Three of the eight coordinates of a picture go into the pose.
+  // Of the eight coordinates of a picture, three degrees of freedom go into the pose.
   if (!found.poses.empty())
     found.corner_px = std::sqrt(squares / (5 * static_cast<double>(found.poses.size())));
   for (FilmPose& pose : found.poses) pose.covariance *= found.corner_px * found.corner_px;

@@ -9,14 +9,14 @@
 
 namespace astro::film {
 
-/// The robot's tag on the floor, in the frame of the first floor tag.
+/// The pose of the robot's tag in one picture, in the frame of the first floor tag.
 struct FilmPose {
   double pts_s = 0;        // of the picture
   double time_s = 0;       // of the pose: when the tag's rows were read
   Pose2 pose;              // heading not wrapped
   RobotVelocity velocity;  // from neighbouring pictures
   Eigen::Matrix3d covariance =
-      Eigen::Matrix3d::Zero();  // of x, y and theta; errors of neighbouring pictures are alike
+      Eigen::Matrix3d::Zero();  // of x, y and theta; errors of neighbouring pictures are correlated
   double rms_px = 0;            // residual of the corners
 };
 
@@ -26,8 +26,8 @@ struct FilmPoses {
   std::size_t dropped = 0;  // pictures whose corners fit no tag: half hidden, or blurred
 };
 
-/// The pose in each picture of a known scene. Dropped are those whose corners miss by more than four times the median and by more
-/// than half a pixel.
+/// Finds the pose in each picture of a known scene. Drops a picture if its residual is more than four times
+/// the median and more than half a pixel.
 ///
 /// Cost  0.1 ms for a picture.
 FilmPoses film_poses(const Scene& scene, const std::vector<RobotTagSeen>& seen);

@@ -13,15 +13,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLeastGap_s = 0.9e-3;    // of a thousand pictures a second; nearer ones have wrong times
-constexpr double kCoarse = 2, kFine = 1;  // by which the picture is reduced
-constexpr double kCoarseEnough_px = 54;   // the shortest side that is surely found in half the resolution
-constexpr int kPatience = 5;  // pictures in which a lost tag is looked for in the whole picture at once
+constexpr double kLeastGap_s = 0.9e-3;    // of a thousand pictures a second; closer ones have wrong times
+constexpr double kCoarse = 2, kFine = 1;  // factor by which the picture is reduced
+constexpr double kCoarseEnough_px = 54;   // a tag with longer sides is surely found at half the resolution
+constexpr int kPatience = 5;              // pictures after a loss that are each searched as a whole
 constexpr int kCoarseEvery = 3, kFineEvery = 15;
-constexpr double kLookEvery_s = 0.2, kSearchEvery_s = 2;  // at the floor tags
+constexpr double kLookEvery_s = 0.2, kSearchEvery_s = 2;  // time between looks at the floor tags
 
-/// Follows the robot's tag from picture to picture: looks around the place where it should be, and in the whole picture after
-/// it was lost.
+/// Follows the robot's tag from picture to picture. Searches around the expected place, and in the whole
+/// picture after the tag was lost.
 ///
 /// Cost  3 ms for a picture while the tag is seen; after it was lost at most 50 ms on average (1080p).
 class RobotTracker {
@@ -31,7 +31,7 @@ class RobotTracker {
   /// The tag in the next picture, with fine corners; nothing if it does not show.
   std::optional<RefinedTag> find(const GrayFrame& frame);
 
-  /// Where the tag is now, if somebody knows.
+  /// Sets where the tag is now, if that is known.
   void expect(const TagCorners& corners) { last_ = corners; }
 
   /// Whether the last picture had the robot's id at two places.
@@ -108,15 +108,15 @@ std::optional<RefinedTag> RobotTracker::find(const GrayFrame& frame) {
   return refine_corners(frame, *found);
 }
 
-/// Looks at the floor tags again and again during a film: they show whether the camera stands, and their corners averaged over
-/// many pictures are better than those of one.
+/// Looks at the floor tags repeatedly during a film. They show whether the camera is at rest, and their
+/// corners averaged over many pictures are better than those of one.
 ///
 /// Cost  2 ms for a look at six tags; 0.2 s more, but at most every two seconds, if most are not where they were.
 class FloorWatch {
  public:
   explicit FloorWatch(const std::vector<SeenFloorTag>& tags);
 
-  /// Takes a look if the last one is long enough ago.
+  /// Takes a look if enough time has passed since the last one.
   void take(const GrayFrame& frame);
 
   const std::vector<FloorLook>& looks() const { return looks_; }
@@ -156,7 +156,7 @@ void FloorWatch::take(const GrayFrame& frame) {
     look.tags[i] = fine->corners;
     ++seen;
   }
-  // Somebody who walks by hides one or two; if most are gone, the camera was moved.
+  // A person who walks by hides one or two tags. If most are gone, the camera was moved.
   if (2 * seen < tags_.size() && (!searched_ || frame.pts_s - last_search_s_ > kSearchEvery_s))
     search(frame, look);
   looks_.push_back(std::move(look));
@@ -197,7 +197,7 @@ FilmSightings watch_film(const std::filesystem::path& film, const FilmInfo& info
     if (tracker.twice() && !all.two_robots_s) all.two_robots_s = frame.pts_s;
     if (progress) progress(info.part(frame.pts_s - all.first_s));
   }
-  if (progress) progress(1);  // an interrupt ends the decoder as well, which looks like the end of the film
+  if (progress) progress(1);  // throws after an interrupt, which also ends the decoder
   all.looks = watch.looks();
   all.complaint = stream.complaint();
   return all;

@@ -47,14 +47,15 @@ std::vector<FloorTagReport> report_on(const FilmTrack& track) {
   return all;
 }
 
-/// Within one side of the tag: the next picture may not have all of it.
+/// Whether the tag is within one side of the picture's border, so that the next picture may not show all of
+/// it.
 bool at_border(const RobotTagSeen& one, const FilmInfo& info) {
   const double side = longest_side(one.corners);
   const Eigen::Vector2d center = center_of(one.corners);
   return std::min({center.x(), center.y(), info.width - center.x(), info.height - center.y()}) < 1.5 * side;
 }
 
-/// All that last longer than half a second: also before the tag is seen first, and after it is seen last.
+/// All spans longer than half a second, also before the tag is first seen and after it is last seen.
 std::vector<HiddenSpan> hidden_spans(const FilmSightings& seen, const FilmInfo& info) {
   constexpr double kLong_s = 0.5;
   std::vector<HiddenSpan> all;

@@ -14,7 +14,7 @@
 #include "host/film/track/film_poses.hpp"
 #include "host/film/track/film_sightings.hpp"
 
-/// A film of a robot with a tag on it, between tags on the floor: from the file to the robot's path.
+/// Computes the robot's path from a film that shows a tag on the robot and tags on the floor.
 namespace astro::film {
 
 /// One floor tag as the film shows it.
@@ -22,7 +22,7 @@ struct FloorTagReport {
   int id = 0;
   double side_px = 0;     // its shortest side
   double seen_share = 0;  // of the looks at the floor
-  double misfit_px = 0;   // rms of its corners, per coordinate, about the scene
+  double misfit_px = 0;   // rms residual of its corners, per coordinate
 };
 
 /// Where a film does not show the robot's tag, by the times of the pictures.
@@ -37,19 +37,20 @@ struct FilmTrack {
   FilmFigures figures;
   Scene scene;
   Eigen::MatrixXd covariance;  // of the scene's parameters
-  /// The standard error of the common factor of all distances (camera/scale_error.hpp). If nobody measured a distance, it is that
-  /// of tags printed in a size that nobody checked. It grows by as much as what was measured contradicts itself.
+  /// The standard error of the common factor of all distances (camera/scale_error.hpp). If nobody measured a
+  /// distance, it is that of tags printed in a size that nobody checked. It is larger if the measured values
+  /// contradict each other.
   double scale_sigma = 0;
-  /// What a person measured, against the film and all else that was measured.
+  /// Checks each value that a person measured against the film and all other measured values.
   std::vector<FigureCheck> checked;
   std::vector<FloorTagReport> floor;
   double floor_rms_px = 0;
   CameraMotion motion;
   FilmSightings sightings;  // with the corners that a camera at rest would have seen
-  FilmPoses found;          // with the readout of the figures
+  FilmPoses found;          // with the readout time in `figures`
   std::vector<HiddenSpan> hidden;
   std::vector<Remark> remarks;
-  std::string fingerprint;  // tells this film from any other, whatever its name: a hash of what it shows
+  std::string fingerprint;  // identifies the film, whatever its name: a hash of what it shows
 };
 
 /// Follows the robot through the whole film.

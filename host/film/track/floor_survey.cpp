@@ -44,7 +44,7 @@ TagCorners typical(const std::vector<TagCorners>& all) {
   return result;
 }
 
-/// What was seen in a small part of the pictures only may be a misread pattern.
+/// Whether a tag was seen often enough. One that was seen in few pictures only may be a misread pattern.
 bool often_enough(std::size_t seen, std::size_t pictures) { return 10 * seen >= pictures; }
 
 void sort_out(const Sightings& sightings, FloorSurvey& survey) {
@@ -78,7 +78,7 @@ FloorSurvey survey_floor(const std::filesystem::path& film, const FilmInfo& info
     take(frame, detector.detect(frame, whole_of(frame), 1), robot_id, survey, sightings);
     if (progress) progress(info.part(frame.pts_s - *first_s));
   }
-  if (progress) progress(1);  // an interrupt ends the decoder as well, which looks like the end of the film
+  if (progress) progress(1);  // throws after an interrupt, which also ends the decoder
   sort_out(sightings, survey);
   return survey;
 }

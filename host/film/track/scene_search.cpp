@@ -18,7 +18,8 @@ std::vector<TagCorners> corners_of(const std::vector<SeenFloorTag>& floor) {
   return all;
 }
 
-/// How much has happened up to each picture: pictures of a robot that stands show little that is new.
+/// How much has changed up to each picture, as a measure of new information: pictures of a robot at rest show
+/// little that is new.
 std::vector<double> happened(const std::vector<FilmPose>& poses) {
   constexpr double kStep_m = 0.05, kTurn_rad = 0.1, kRest_s = 1;
   std::vector<double> sums{0};
@@ -79,7 +80,7 @@ SceneFit find_scene(const FilmInfo& info, const std::vector<SeenFloorTag>& floor
   start->readout_s = given.readout_s;
   const std::vector<TagCorners> corners = corners_of(floor);
   SceneFit fit = fit_floor(*start, corners, figures);
-  // The first fit shows which pictures are no good, and how fast the robot was in each.
+  // The first fit shows which pictures are unusable, and how fast the robot was in each.
   for (int round = 0; round < 2; ++round)
     fit = fit_scene(fit.scene, corners, spread(film_poses(fit.scene, robot).poses, robot), figures);
   return fit;

@@ -16,7 +16,7 @@ bool is_of_zeros(const TimedPose& at) {
   return at.x_m == 0 && at.y_m == 0 && at.z_m == 0 && length_of_quaternion(at) == 0;
 }
 
-/// A publisher of positions has zeros or NaN in all quaternions.
+/// Whether any pose has a rotation. A publisher of positions has zeros or NaN in all quaternions.
 bool has_rotations(const std::vector<TimedPose>& poses) {
   return std::ranges::any_of(poses, [](const TimedPose& at) { return length_of_quaternion(at) > 0; });
 }

@@ -17,7 +17,8 @@ namespace {
 
 using calibration::WheelFactors;
 
-/// Truth as the robot's centre saw it, on the robot's clock: so figures compare the same thing.
+/// Converts the truth to poses of the robot's centre on the robot's clock, so that figures compare the same
+/// thing.
 void place_on_robot(recording::Run& run, const calibration::RunFit& fit, double skew,
                     const calibration::LeverArm& lever) {
   // The skew has no effect in the middle of the wheels' recording (calibration::PreparedRun).
@@ -27,7 +28,7 @@ void place_on_robot(recording::Run& run, const calibration::RunFit& fit, double 
   for (recording::TruthSample& sample : run.truth) {
     const double since_middle_us = static_cast<double>(sample.time_us - middle_us);
     sample.time_us += std::llround(1e6 * fit.clock_offset_s + skew * since_middle_us);
-    if (!std::isfinite(lever.theta_rad)) continue;  // without headings the centre is not known
+    if (!std::isfinite(lever.theta_rad)) continue;  // without headings the lever arm is not known
     const Pose2 robot = pose_of(sample) * lever.inverse();
     sample.x_m = robot.x_m;
     sample.y_m = robot.y_m;
@@ -35,7 +36,7 @@ void place_on_robot(recording::Run& run, const calibration::RunFit& fit, double 
   }
 }
 
-/// Odometry as it would have been with these factors.
+/// Replaces the odometry by that with these factors.
 void dead_reckon_again(recording::Run& run, const experiment::NominalWheel& wheel,
                        const WheelFactors& factors) {
   run.info.parameters["c_R"] = factors.c_r;

@@ -7,14 +7,14 @@
 #include "host/experiment/files/run_set.hpp"
 #include "host/report/report.hpp"
 
-/// A report on drives of any robot, with the factors that it carried and with other ones.
+/// A report on drives of any robot, which compares the factors loaded in the robot with others.
 namespace astro::importing {
 
-/// `found`: maximum likelihood over these drives, which says where the tracked body sits and how the clocks are offset; its
-/// factors are compared, drive by drive with factors that have not seen the drive.
+/// `found` is the maximum likelihood estimate over these drives. It gives the lever arm of the tracked body
+/// and the clock offsets. The comparison of each drive uses factors that were estimated without this drive.
 report::ReportInput drive_report(const experiment::RunSet& set, const experiment::Calibration& found);
 
-/// The same with `factors` of another calibration instead.
+/// The same, but compares with `factors` of another calibration.
 report::ReportInput drive_report(const experiment::RunSet& set, const experiment::Calibration& found,
                                  const experiment::NamedFactors& factors);
 

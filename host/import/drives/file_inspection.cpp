@@ -30,7 +30,7 @@ double rate_hz(std::uint64_t samples, double duration_s) {
   return duration_s > 0 ? static_cast<double>(samples - 1) / duration_s : 0;
 }
 
-/// What one pass over a bag shows of each topic.
+/// Collects in one pass over a bag what it shows of each topic.
 class Pass {
  public:
   BagInspection over(const fs::path& path) {
@@ -93,13 +93,14 @@ WheelInspection inspect_wheels(WheelTrack track) {
   return out;
 }
 
-/// Only its end tells the kind of a file of settings: text with columns is never called so.
+/// Whether the file holds settings. Only its extension shows this; tables never have one of these extensions.
 bool is_settings(const fs::path& path) {
   const fs::path end = path.extension();
   return end == ".toml" || end == ".yaml" || end == ".yml";
 }
 
-/// Nothing if the file is no recording of a tracker; its text is not in memory any more then.
+/// Nothing if the file is not a recording of a tracker. Its text is released before the caller reads it as
+/// another kind.
 std::optional<truth::Inspection> inspect_tracker(const fs::path& path) {
   const Bytes bytes = text_of_file(path);
   const std::string_view text = as_text(bytes);

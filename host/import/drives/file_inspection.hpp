@@ -13,7 +13,7 @@
 #include "host/recording/run.hpp"
 #include "host/truth/floor/inspection.hpp"
 
-/// What is in a file that somebody else wrote, before anything is done with it.
+/// What a file of another program contains, before anything is done with it.
 namespace astro::importing {
 
 struct TopicInspection {
@@ -27,7 +27,7 @@ struct BagInspection {
   std::vector<TopicInspection> topics;
   std::vector<PoseStream> poses;          // ground truth, or a robot's own odometry
   std::vector<std::string> joints;        // of all messages of joints, at most 1000
-  std::optional<JointPair> wheels;        // which of them are the wheels, if their names tell
+  std::optional<JointPair> wheels;        // which of them are the wheels, if their names show it
   std::optional<recording::RunInfo> run;  // the file is a recording of this project
 };
 
@@ -37,7 +37,7 @@ struct WheelInspection {
   double left = 0, right = 0;  // travel from the first to the last sample, in the track's unit
 };
 
-/// Exactly one is there.
+/// Exactly one of these is set.
 struct FileInspection {
   std::optional<BagInspection> bag;
   std::optional<truth::Inspection> tracker;
@@ -45,9 +45,10 @@ struct FileInspection {
   std::optional<RobotGeometry> robot;
 };
 
-/// The kind is recognised by the content, that of settings (.toml, .yaml) by the end of the name; `table` describes wheels without names of columns. `topic`: of a bag, the one
-/// stream of poses that is inspected as a tracker's recording, which takes 72 bytes of memory for each pose; without
-/// it a bag of any size is read in constant memory.
+/// Recognises the kind of a file by its content, but that of settings (.toml, .yaml, .yml) by its extension.
+/// `table` describes wheels without column names. `topic` selects the one stream of poses of a bag that is
+/// inspected as a tracker's recording, which takes 72 bytes of memory for each pose; without it a bag of any
+/// size is read in constant memory.
 ///
 /// Throws astro::Error naming the file if it is none of these, and what the readers throw.
 FileInspection inspect_file(const std::filesystem::path& path, const WheelTable& table = {},

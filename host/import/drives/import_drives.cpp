@@ -28,7 +28,7 @@ std::string name_of(const fs::path& path, std::size_t parts) {
   return name.string();
 }
 
-/// As short as they can be without being equal.
+/// Names as short as possible, but distinct.
 std::vector<std::string> names_of(std::span<const DriveFiles> files) {
   constexpr std::size_t kMostParts = 8;
   for (std::size_t parts = 1;; ++parts) {
@@ -53,7 +53,7 @@ void refuse_twins(std::span<const DriveFiles> files) {
                     ImportProblem::given_twice, {files[i].wheels.string()});
 }
 
-/// A copy under another name would count twice as well.
+/// Refuses a copy under another name, because the drive would count twice.
 void refuse_copy(const recording::Run& run, std::span<const recording::Run> others, const std::string& name,
                  std::span<const std::string> names) {
   const auto same_wheels = [](const recording::OdometrySample& a, const recording::OdometrySample& b) {
@@ -71,14 +71,13 @@ void refuse_copy(const recording::Run& run, std::span<const recording::Run> othe
           ImportProblem::copy_of_other, {name, names[i]});
 }
 
-constexpr std::size_t kLongestDescription = 4
-                                            << 20;  // of a description; those with meshes only name the files
+constexpr std::size_t kLongestDescription = 4 << 20;  // bytes; meshes are in files of their own
 
 struct Described {
   std::string topic, urdf;
 };
 
-/// Of all descriptions with these joints the last one: sizes may have been corrected while the robot drove.
+/// Finds the last description with these joints: sizes may have been corrected while the robot drove.
 std::optional<Described> description_in(const fs::path& bag, const JointPair& joints) {
   std::optional<Described> found;
   bag::BagHandlers handlers;
@@ -95,11 +94,12 @@ std::optional<Described> description_in(const fs::path& bag, const JointPair& jo
   return found;
 }
 
-/// `given`, and what it lacks of wheel diameter and wheelbase from the robot's description (URDF) that was recorded in the bag beside
-/// the wheels: the topic robot_description, in whatever namespace, that has their joints. A remark says what it is.
+/// Completes `given` with wheel diameter and wheelbase from the robot's description (URDF) that was recorded
+/// in the bag beside the wheels: the topic robot_description, in any namespace, whose description has the
+/// joints of the wheels. A remark states the sizes.
 ///
-/// Nothing is looked for if nothing is missing, or if `wheels` come from no bag. Throws astro::Error naming the bag if a description
-/// has the wheels and not their sizes, and what recording::read_bag throws.
+/// Does not search if nothing is missing, or if `wheels` are not from a bag. Throws astro::Error naming the
+/// bag if a description has the wheels but not their sizes, and what bag::read_bag throws.
 RobotGeometry completed_by_description(RobotGeometry given, const fs::path& bag, const WheelTrack& wheels,
                                        std::vector<Remark>& remarks) {
   if ((given.wheel_diameter_m && given.wheelbase_m) || wheels.joints.left.empty()) return given;
@@ -119,7 +119,8 @@ RobotGeometry completed_by_description(RobotGeometry given, const fs::path& bag,
   return given;
 }
 
-/// The robot's description is in the bag of each drive, or in that of an earlier one.
+/// The geometry for each drive: the robot's description is in the bag of that drive, or in that of an earlier
+/// one.
 class Geometry {
  public:
   explicit Geometry(const RobotGeometry& given) : given_(given), last_(given) {}
@@ -138,15 +139,15 @@ class Geometry {
 
 /// A drive whose wheels and whose ground truth other programs recorded.
 struct PairedDrive {
-  /// As our own recordings: dead reckoning with the factors of the geometry as odometry, and the path on the floor as
-  /// truth, each with the times of its own clock ("tracker"). Angles and metres of travel are counts of kAngleCounts
-  /// for a turn (analysis/trajectories.hpp).
+  /// Like our own recordings: its odometry is dead reckoning with the factors of the geometry, its truth is
+  /// the path on the floor, each with the times of its own clock ("tracker"). Angles and metres of travel are
+  /// counts with kAngleCounts in a turn (analysis/trajectories.hpp).
   recording::Run run;
   DriveReport report;
 };
 
-/// Times of wheels and tracker as they are in their files, so in microseconds of any origin. Several samples are one
-/// motion if there are more than 40 minutes of them at 100 Hz.
+/// Times of wheels and tracker are as in their files: microseconds with any origin. If there are more than 40
+/// minutes of samples at 100 Hz, several samples become one motion.
 std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometrySample>& odometry) {
   constexpr std::size_t kMostMotions = 250'000;
   const std::size_t stride = odometry.size() / kMostMotions + 1;
@@ -170,9 +171,9 @@ std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometryS
 
 void settle_direction(const std::string& name, const truth::FloorFindings& findings,
                       std::vector<Remark>& remarks) {
-  constexpr double kClear_m = 0.03;  // more than a tracker's origin is off its floor
+  constexpr double kClear_m = 0.03;  // more than the usual height of a tracker's origin above its floor
   const std::string distance = fmt::format("{:.2f}", -findings.height_m);
-  // Exchanged wheels under an axis that points down turn as they should.
+  // If the axis points down and the wheels are exchanged, both turn alike.
   if (!findings.turns_against_wheels && !findings.up_given && findings.height_m < -kClear_m)
     throw Error(
         fmt::format(
@@ -208,12 +209,12 @@ std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& f
                      truth::axis_text(floor.up));
 }
 
-/// Puts both together. Where the wheels turn the robot the other way than the ground truth does, one of three things is
-/// wrong, and the motion alone cannot show which: the up axis, left and right wheel, or the recording is a mirror image. The
-/// height of the body above the origin decides if it is clear, because trackers have their origin on the floor: below it,
-/// the axis was reversed. Otherwise nothing is guessed, because exchanged wheels would give the left factor to the
-/// right wheel. Where both turn alike but the body is below the origin, two of the three may be wrong and hide each other,
-/// so the axis must be given.
+/// Combines wheels and truth. If the wheels turn the robot in the direction opposite to the truth, one of
+/// three things is wrong, and the motion alone cannot show which: the up axis is reversed, left and right
+/// wheel are exchanged, or the recording is a mirror image. Trackers have their origin on the floor, so a
+/// body clearly below the origin shows that the axis is reversed. Otherwise nothing is guessed, because with
+/// exchanged wheels the right wheel would get the left factor. If both turn alike but the body is below the
+/// origin, two of the three may be wrong and hide each other, so the axis must be given.
 PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
                     const RobotGeometry& given, const truth::FloorChoices& choices) {
   WheelRun made = run_of_wheels(name, std::move(wheels), given);
@@ -234,7 +235,7 @@ PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const Import
   return drive;
 }
 
-/// The errors of pairing are about both files.
+/// Errors of pairing name both files.
 PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices,
                    Geometry& geometry) {
   ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);

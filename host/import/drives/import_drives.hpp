@@ -12,15 +12,15 @@
 #include "host/import/drives/wheel_file.hpp"
 #include "host/truth/floor/floor_path.hpp"
 
-/// Drives of any robot under any tracker, from the files of others to what calibrations take.
+/// Imports drives of any robot under any tracker, from files of other programs into what calibrations take.
 namespace astro::importing {
 
-/// The two files of a drive; of a bag that holds both, the same path.
+/// The two files of a drive; the same path twice if one bag holds both.
 struct DriveFiles {
   std::filesystem::path wheels, truth;
 };
 
-/// What a person says about all of them.
+/// What a person states about all drives.
 struct ImportChoices {
   WheelSelection wheels;
   TruthSelection truth;
@@ -32,22 +32,26 @@ struct ImportChoices {
 struct DriveReport {
   truth::FloorFindings floor;
   std::string summary;          // how many samples, how often, whose poses, what is up: one phrase
-  std::vector<Remark> remarks;  // what was inferred or left out, of both files
+  std::vector<Remark> remarks;  // what was inferred or left out in both files
 };
 
 struct ImportedDrives {
-  /// Named after the files of the wheels, with their folders as far as needed to tell them apart.
+  /// The runs are named after the files of the wheels, with as many parent folders as make the names
+  /// distinct.
   experiment::RunSet set;
-  std::vector<DriveReport> reports;  // of each
+  std::vector<DriveReport> reports;  // one for each run
 };
 
-/// Throws astro::Error if two pairs are the same files; naming the drive if wheels and truth turn against each other, or the body is
-/// below the origin of an axis that was not given; if a wheel turns 100 times between two samples, or leaps faster than 20 m/s; naming the
-/// bag if a description in it has the wheels and not their sizes; and what read_wheels, read_truth, complete_geometry and
-/// truth::place_on_floor throw.
+/// Throws astro::Error
+///   if two pairs have the same file of wheels, or one drive is a copy of another;
+///   naming the drive, if wheels and truth turn in opposite directions, if the body is below the origin along
+///   an axis that was not given, if a wheel turns 100 times between two samples, or if it leaps faster than
+///   20 m/s;
+///   naming the bag, if a description in it has the wheels but not their sizes;
+/// and what read_wheels, read_truth, complete_geometry and truth::place_on_floor throw.
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices);
 
-/// The same of drives whose truth comes from elsewhere: runs without truth.
+/// The same for drives whose truth comes from elsewhere; the runs have no truth.
 ImportedDrives import_wheels(std::span<const std::filesystem::path> wheels, const ImportChoices& choices);
 
 }  // namespace astro::importing

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By the first line that says anything: TOML begins with a [table] or `key =`, YAML with `key:`, with the three dashes
-/// that begin a document or with a %directive.
+/// Decides by the first line that is neither empty nor a comment: TOML begins with a [table] or `key =`, YAML
+/// with `key:`, with the three dashes that begin a document or with a %directive.
 bool looks_like_yaml(std::string_view text) {
   const std::string document(3, '-');
   while (!text.empty()) {
@@ -41,7 +41,7 @@ RobotGeometry of_controller(std::string_view text, const fs::path& path, const s
     geometry.wheelbase_m = found.wheel_separation_m * found.wheel_separation_multiplier;
   geometry.c_r = found.right_wheel_radius_multiplier;
   geometry.c_l = found.left_wheel_radius_multiplier;
-  // Of several wheels on a side the first one stands for all: they turn together.
+  // If a side has several wheels, the first one represents them, because they turn together.
   if (!found.left_wheel_names.empty() && !found.right_wheel_names.empty())
     geometry.joints = {found.left_wheel_names.front(), found.right_wheel_names.front()};
   return geometry;

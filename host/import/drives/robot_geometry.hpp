@@ -11,11 +11,11 @@
 
 namespace astro::importing {
 
-/// What keeps a drive of another program from being taken, or is not used of it. Values:
+/// Why a drive of another program is refused, or what of it is not used. Values:
 ///   size_not_above_zero      the file and the parameter
 ///   given_twice              the file of the wheels
 ///   copy_of_other            both drives
-///   turns_too_far, leaps     the drive, of a leap the metres, and the times in seconds before and after
+///   turns_too_far, leaps     the drive, for a leap its metres, and the times in seconds before and after
 ///   below_origin             the drive, and by how many metres
 ///   turns_against_wheels     the drive, and by how many metres the body is above the tracker's origin if it
 ///                            clearly is
@@ -36,8 +36,8 @@ enum class ImportProblem {
   turns_against_stated_up
 };
 
-/// The wheels of any robot as its own program takes them: nominal sizes, and what its odometry multiplied them by
-/// while it drove.
+/// The wheels of any robot as its own program describes them: nominal sizes, and the factors by which its
+/// odometry multiplied them while it drove.
 struct RobotGeometry {
   std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
   double c_r = 1, c_l = 1;
@@ -47,29 +47,32 @@ struct RobotGeometry {
 
   /// The factors of its odometry. Precondition: the wheelbase is known.
   calibration::WheelFactors factors() const { return {c_r, c_l, *wheelbase_m, e, kappa0}; }
-  /// What `over` says, and the rest of this.
+  /// This geometry with the sizes and joints that `over` has in place of its own.
   RobotGeometry overridden_by(const RobotGeometry& over) const;
 };
 
-/// Whether the file is read as YAML below. Throws astro::Error naming the file if it cannot be read.
+/// Whether read_robot_file reads the file as YAML. Throws astro::Error naming the file if it cannot be read.
 bool is_controller_file(const std::filesystem::path& path);
 
-/// The geometry in a file, of which the content tells the kind:
+/// Reads the geometry in a file. The kind is recognised by the content:
 ///   TOML   [parameters] wheel_diameter, counts_per_motor_rev, gear_numerator, gear_denominator (1 unless given), b, c_R,
 ///          c_L, e, kappa0, in SI units: as the robot's parameters are exported; or a calibration that the robot carries, with
 ///          its [nominal] wheel
 ///   YAML   parameters of ROS 2's diff_drive_controller; `node` chooses among several. Its multipliers are c_R and c_L, and
 ///          the wheelbase is wheel_separation times its multiplier.
 ///
-/// Throws astro::Error naming the file if it cannot be read, and importing::UnclearChoice for the node.
+/// Throws astro::Error naming the file if it cannot be read, and importing::UnclearChoice if it is unclear
+/// which node is meant.
 RobotGeometry read_robot_file(const std::filesystem::path& path, const std::string& node = {});
 
-/// The parameters with which a robot makes the same of its counts as the program whose geometry this is: c_R, c_L, b, e, and
-/// wheel_diameter if it is known. Throws astro::Error naming the file if the wheelbase is not known.
+/// The parameters with which a robot computes the same odometry from its counts as the program whose geometry
+/// this is: c_R, c_L, b, e, and wheel_diameter if it is known. Throws astro::Error naming the file if the
+/// wheelbase is not known.
 experiment::ParameterValues parameters_of(const RobotGeometry& geometry, const std::filesystem::path& path);
 
-/// The same if it has what travel in this unit needs: a wheelbase, the diameter (also that which metres assume, because c_R
-/// and c_L refer to it), and for counts how many make a turn. Throws astro::Error that names what is missing.
+/// Returns `geometry` if it has all that travel in this unit needs: a wheelbase, the wheel diameter (also for
+/// metres, because c_R and c_L refer to it), and for counts their number in a turn. Throws astro::Error
+/// naming what is missing.
 RobotGeometry complete_geometry(RobotGeometry geometry, WheelUnit unit);
 
 }  // namespace astro::importing

@@ -9,11 +9,11 @@
 
 namespace astro::importing {
 
-/// What a person says about files of ground truth; what is not said is recognised.
+/// What a person states about files of ground truth; all else is recognised.
 struct TruthSelection {
-  std::string body;         // of recordings of trackers as text
-  PoseSelection poses;      // of bags
-  std::string length_unit;  // "m", "cm", "mm" in place of what the file says; "" if it is right
+  std::string body;         // in text recordings of trackers
+  PoseSelection poses;      // in bags
+  std::string length_unit;  // "m", "cm", "mm": overrides the unit in the file; "": does not
 };
 
 struct ImportedTruth {
@@ -21,8 +21,8 @@ struct ImportedTruth {
   truth::LostSamples lost;
 };
 
-/// The poses of one body in a recording of a tracker as text, also packed with gzip, or in a bag, by the content of
-/// the file. Throws as track_in_bag, read_track and unpacked do.
+/// The poses of one body in a text recording of a tracker (also compressed with gzip) or in a bag; the
+/// content shows which it is. Throws as track_in_bag, read_track and unpacked do.
 ImportedTruth read_truth(const std::filesystem::path& path, const TruthSelection& selection = {});
 
 }  // namespace astro::importing

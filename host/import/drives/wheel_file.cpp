@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Our counters wrap at 2^32.
+/// Makes the counters of a recording of this project continuous; they wrap at 2^32.
 WheelTrack track_of(const recording::Run& run) {
   WheelTrack track;
   track.samples.reserve(run.odometry.size());

@@ -11,27 +11,28 @@
 
 namespace astro::importing {
 
-/// What a person says about files of wheels; what is not said is recognised.
+/// What a person states about files of wheels; all else is recognised.
 struct WheelSelection {
   WheelTable table;        // of tables
   JointSelection joints;   // of bags
-  bool exchanged = false;  // left is right
+  bool exchanged = false;  // the file has left and right exchanged
 };
 
 struct ImportedWheels {
   WheelTrack track;
-  /// The file is a recording of this project, which knows its robot.
+  /// Set if the file is a recording of this project, which contains the robot's parameters.
   std::optional<recording::RunInfo> info;
 };
 
-/// Our recordings are single MCAP files; exported as bags or packed they are bags as any other.
+/// Whether the file is a recording of this project. These are single MCAP files; one that was exported as a
+/// bag or compressed counts as any other bag.
 bool is_own_recording(const std::filesystem::path& path);
 
-/// The wheels in a table, also packed with gzip. Throws as wheels_in_table and text_of_file do.
+/// The wheels in a table, also compressed with gzip. Throws as wheels_in_table and text_of_file do.
 WheelTrack read_wheel_table(const std::filesystem::path& path, const WheelTable& table);
 
-/// The wheels in a table, in a bag, or in a recording of this project, by the content of the file. Throws as
-/// read_wheel_table, wheels_in_bag and read_run do.
+/// The wheels in a table, in a bag, or in a recording of this project; the content shows which it is. Throws
+/// as read_wheel_table, wheels_in_bag and read_run do.
 ImportedWheels read_wheels(const std::filesystem::path& path, const WheelSelection& selection = {});
 
 }  // namespace astro::importing

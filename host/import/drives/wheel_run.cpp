@@ -27,7 +27,7 @@ bool whole_counts(const WheelTrack& track) {
          });
 }
 
-/// How the travel of a track becomes counts of a nominal wheel.
+/// Converts the travel of a track to counts of a nominal wheel.
 struct Counter {
   experiment::NominalWheel wheel;
   double counts_per_unit = 1;
@@ -54,8 +54,9 @@ struct Counter {
   std::int64_t counts(double travel) const { return std::llround(travel * counts_per_unit); }
 };
 
-/// Between two samples in more than a hundred turns of a wheel something else is wrong than a gap. No robot drives at
-/// 20 m/s, so a counter started again; but a recorder may stamp many samples at once that it received late.
+/// Refuses a step of more than a hundred wheel turns, which is too long for a gap in the recording. Refuses a
+/// step faster than 20 m/s, which no robot drives: a counter was restarted. Short steps may be faster,
+/// because a recorder may give many samples that it received late the same time.
 void refuse_leaps(const std::string& name, const WheelTrack& track, const Counter& counter) {
   constexpr double kMostTurns = 100, kMost_mps = 20, kAtOnce_m = 0.5;
   for (std::size_t i = 1; i < track.samples.size(); ++i) {
@@ -81,15 +82,15 @@ void refuse_leaps(const std::string& name, const WheelTrack& track, const Counte
   }
 }
 
-/// Takes the samples over, so that they are freed in the end: an hour at 1 kHz has 90 MB of them, and twice as much of
-/// odometry.
+/// Takes ownership of the samples, so that they are freed at the end: an hour at 1 kHz has 90 MB of them, and
+/// twice as much odometry.
 std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samples, const Counter& counter,
                                                    const RobotGeometry& geometry) {
   std::vector<recording::OdometrySample> odometry;
   odometry.reserve(samples.size());
   const calibration::WheelFactors factors = geometry.factors();
   const double count_m = counter.wheel.metres_per_count();
-  const WheelSample start = samples.front();  // a counter may stand at any number
+  const WheelSample start = samples.front();  // a counter may start at any number
   recording::OdometrySample sample;
   Pose2 pose;
   std::int64_t left = 0, right = 0;
@@ -137,7 +138,7 @@ recording::RunInfo info_of(const ImportedWheels& wheels, const Counter& counter,
   return info;
 }
 
-/// What our own recording knows counts more than what is assumed of a robot.
+/// The geometry in our own recording takes precedence over what is stated about the robot.
 RobotGeometry geometry_of(const ImportedWheels& wheels, const RobotGeometry& given, const std::string& name) {
   if (!wheels.info) return complete_geometry(given, wheels.track.unit);
   const experiment::NominalWheel wheel = experiment::nominal_wheel(*wheels.info, name);
@@ -153,7 +154,7 @@ RobotGeometry geometry_of(const ImportedWheels& wheels, const RobotGeometry& giv
   return geometry;
 }
 
-/// Nothing where no sizes were given, or the same as the recording knows.
+/// Adds a remark if sizes were given that differ from those in the recording.
 void remark_on_unused(const RobotGeometry& given, const RobotGeometry& used, std::vector<Remark>& remarks) {
   constexpr double kSame = 1e-6;
   const auto differs = [](const std::optional<double>& value, const std::optional<double>& own) {

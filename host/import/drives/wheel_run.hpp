@@ -17,10 +17,11 @@ struct WheelRun {
   std::vector<Remark> remarks;  // what was inferred or left out
 };
 
-/// Angles and metres of travel are counts of kAngleCounts for a turn (analysis/trajectories.hpp).
+/// Makes a run of a wheel track. Angles and metres of travel become counts with kAngleCounts in a turn
+/// (analysis/trajectories.hpp).
 ///
-/// Throws astro::Error: a wheel turns 100 times between two samples, or leaps faster than 20 m/s; what complete_geometry
-/// throws.
+/// Throws astro::Error if a wheel turns 100 times between two samples, or leaps faster than 20 m/s, and what
+/// complete_geometry throws.
 WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const RobotGeometry& given);
 
 }  // namespace astro::importing

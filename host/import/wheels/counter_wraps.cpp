@@ -42,7 +42,8 @@ bool wraps(const std::vector<WheelSample>& samples, Wheel wheel, const Range& ra
   return jumps;
 }
 
-/// The largest step of a wheel and its greatest speed between samples, apart from jumps of half the range.
+/// The largest step of a wheel and its greatest speed between samples, without jumps of more than half the
+/// range.
 struct Pace {
   double step = 0, speed = 0;
 
@@ -54,7 +55,7 @@ struct Pace {
       speed = std::max(speed, size / seconds(samples[i - 1], samples[i]));
     }
   }
-  /// A wheel can go on like this: messages that were lost make a step longer, and delays make its time shorter.
+  /// Whether a step may be motion: lost messages make a step longer, and delays make its time shorter.
   bool fits(double size, double time_s) const {
     constexpr double kMostTimes = 4;
     return step == 0 || size <= kMostTimes * step || size <= kMostTimes * speed * time_s;
@@ -64,8 +65,8 @@ struct Pace {
   }
 };
 
-/// How often the wheel passed the end of the range between two samples, forwards counted positive. `name` and
-/// `side` are for errors.
+/// How often the wheel passed the end of the range between two samples; forwards is positive. `name` and
+/// `side` are for error messages.
 double passes_between(const WheelSample& from, const WheelSample& to, Wheel wheel, const Range& range,
                       const Pace& pace, const std::string& name, const std::string& side) {
   const double jump = to.*wheel - from.*wheel, time_s = Pace::seconds(from, to);

@@ -40,7 +40,7 @@ double number(std::string_view text, const std::string& what) {
   return *value;
 }
 
-/// Three numbers between blanks; `otherwise` without the attribute.
+/// Reads three numbers separated by blanks; `otherwise` if the attribute is missing.
 Vector vector_in(const XMLElement* element, const char* attribute, const Vector& otherwise,
                  const std::string& what) {
   const char* text = element == nullptr ? nullptr : element->Attribute(attribute);
@@ -92,7 +92,7 @@ class Description {
                 DescriptionProblem::no_round_wheel, {name});
   }
 
-  /// Of both joints, along the axis of the first one.
+  /// The distance between both joints along the axis of the left one.
   double separation_m(const JointPair& pair) const {
     const Place left = place_of(pair.left), right = place_of(pair.right);
     const std::string what = "the axis of '" + pair.left + '\'';
@@ -129,7 +129,7 @@ class Description {
   }
 
   Place place_of(const std::string& name) const {
-    constexpr int kMostJoints = 100;  // from the first link; more are a circle
+    constexpr int kMostJoints = 100;  // from the first link; a longer chain is a cycle
     Place place;
     const XMLElement* at = &joint(name);
     for (int i = 0; at != nullptr; ++i) {

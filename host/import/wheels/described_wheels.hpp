@@ -6,8 +6,8 @@
 
 namespace astro::importing {
 
-/// What is wrong with a robot's description. Values: the joint, the link, the text that is no number, or both
-/// radii in metres.
+/// What is wrong with a robot's description. Values: the joint, the link, the text that is not a number, or
+/// both radii in metres.
 enum class DescriptionProblem {
   not_xml,
   no_robot,
@@ -24,15 +24,15 @@ struct DescribedWheels {
   double separation_m = 0;  // from one to the other along their axle
 };
 
-/// Of the wheels that turn with these joints: the cylinder or sphere of their links (of the collision model, otherwise of what is
-/// shown), and where the joints are.
+/// The sizes of the wheels that turn with these joints, from the cylinder or sphere of their links (of the
+/// collision model, otherwise of the visual one) and from the positions of the joints.
 ///
-/// Errors  astro::Error, which names the joint or the link: the text is no XML, nests deeper than 100 levels or is no description of a
-///         robot; it has no such joint; a wheel has no such shape (as one of a mesh) or is not as large as the other one; a
-///         number is none.
+/// Errors  astro::Error, which names the joint or the link, if the text is not XML, nests deeper than 100
+///         levels or is not the description of a robot; if it has no such joint; if a wheel has no such shape
+///         (for example a mesh) or another radius than the other wheel; or if a number cannot be read.
 DescribedWheels described_wheels(std::string_view urdf, const JointPair& joints);
 
-/// Whether it has both joints. False also for what is no description.
+/// Whether the description has both joints. False also for a text that is not a description.
 bool describes(std::string_view urdf, const JointPair& joints);
 
 }  // namespace astro::importing

@@ -10,8 +10,8 @@ namespace astro::importing {
 /// What is wrong with a parameter of a controller. Values: the file, the line and the text there.
 enum class ControllerProblem { not_above_zero };
 
-/// What a file of parameters of ROS 2's diff_drive_controller says of a robot. The multipliers are what the robot
-/// carried while it drove: a wheel's radius is wheel_radius times its multiplier.
+/// The robot's parameters in a file for ROS 2's diff_drive_controller. The multipliers are those that were
+/// loaded while the robot drove: a wheel's radius is wheel_radius times its multiplier.
 struct DiffDriveParameters {
   std::string node;  // "diff_drive_controller", "/robot/base_controller"
   double wheel_radius_m = 0, wheel_separation_m = 0;
@@ -19,9 +19,10 @@ struct DiffDriveParameters {
   std::vector<std::string> left_wheel_names, right_wheel_names;
 };
 
-/// The parameters of the controller `node`, or of the only one that has a wheel_radius or a wheel_separation. `name` is
-/// that of the file. Throws UnclearChoice (unclear_choice.hpp) if there is no such controller or several, and astro::Error
-/// naming the file and the line if the text is no YAML or a value is no number above 0.
+/// The parameters of the controller `node`, or of the only one that has a wheel_radius or a wheel_separation.
+/// `name` is the name of the file. Throws UnclearChoice (unclear_choice.hpp) if there is no such controller
+/// or several, and astro::Error naming the file and the line if the text is not YAML or a value is not a
+/// number above 0.
 DiffDriveParameters diff_drive_parameters(std::string_view text, std::string_view name,
                                           std::string_view node = {});
 

@@ -46,7 +46,8 @@ bool speaks_of_wheels(const std::string& words) {
   return false;
 }
 
-/// The name with a mark in place of the word for its side; no side if it has no such word, or both.
+/// The name with a placeholder for the word of its side. `side` is empty if there is no such word, or more
+/// than one.
 struct Sided {
   std::optional<Side> side;
   std::string stem;

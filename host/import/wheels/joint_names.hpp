@@ -12,9 +12,9 @@ struct JointPair {
   bool operator==(const JointPair&) const = default;
 };
 
-/// Which of these joints are the driven wheels: the one pair whose names differ only in the word for the side (left and
-/// right, l and r, port and starboard) and, if there are several, the one that speaks of wheels, tyres, tires, drives or
-/// motors. Nothing if no pair or more than one is left.
+/// Finds the joints of the driven wheels: the one pair whose names differ only in the word for the side (left
+/// and right, l and r, port and starboard). If there are several pairs, it is the one whose names contain a
+/// word such as wheel, tyre, tire, drive or motor. Nothing if no pair or more than one remains.
 std::optional<JointPair> recognise_wheels(std::span<const std::string> names);
 
 }  // namespace astro::importing

@@ -102,7 +102,7 @@ class JointWheels {
       throw UnclearChoice(path_.string() + ": both wheels are the joint " + joints_.left, names,
                           WheelProblem::joints_unclear);
     track_.joints = joints_;
-    // Other drivers on the same topic may have no clock.
+    // Only messages with the left wheel count: other drivers on the same topic may have no clock.
     stamps_ = found.at(joints_.left);
     track_.clock = stamps_.most_are_set() ? WheelClock::stamp : WheelClock::receipt;
   }

@@ -81,7 +81,7 @@ std::vector<std::string> names_of(std::span<const PoseStream* const> streams) {
 
 std::string with_type(const PoseStream& stream) { return stream.name() + " (" + stream.type + ")"; }
 
-/// The only one of them that `is_meant`, or nullptr.
+/// The only stream for which `is_meant` is true; nullptr if there is none or more than one.
 const PoseStream* only(std::span<const PoseStream* const> streams, const auto& is_meant) {
   const PoseStream* found = nullptr;
   for (const PoseStream* stream : streams) {
@@ -132,7 +132,7 @@ std::vector<PoseStream> pose_streams(const fs::path& path) {
   std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> places;
   std::vector<PoseStream> streams;
   const auto take = [&](const bag::BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {
-    // A pose without a child frame belongs to its topic, whatever its frame is called from message to message.
+    // Poses without a child frame form one stream per topic, even if the name of their frame changes.
     const std::string frame = pose.child_frame.empty() ? "" : pose.frame;
     const auto [at, is_new] =
         places.try_emplace({topic.name, topic.type, frame, pose.child_frame}, streams.size());
@@ -184,7 +184,7 @@ PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
   const PoseStream& stream = out.stream;
   const bool stamped = stream.stamps.most_are_set();
   ClockOffset offset;
-  // Of a pose 152 bytes are held when it is put on the floor: four times as many as these.
+  // A pose takes 152 bytes of memory when it is placed on the floor, four times as many as these.
   require_possible(stream.poses, 38, "poses", path);
   out.poses.reserve(stream.poses);
   const auto take = [&](const bag::BagTopic& topic, const ros2::StampedPose& pose, std::int64_t log_time_ns) {

@@ -9,10 +9,11 @@
 #include "host/base/error.hpp"
 #include "host/import/wheels/stamp_count.hpp"
 
-/// Poses in bags, from whatever published them: ground truth of a tracker, or a robot's own odometry.
+/// Reads poses in bags, whatever published them: ground truth of a tracker, or a robot's own odometry.
 namespace astro::importing {
 
-/// Poses that belong together: those of a topic between one pair of frames. Messages without a child frame have "".
+/// Poses that belong together: those of one topic between one pair of frames. `child_frame` is "" if the
+/// messages have none.
 struct PoseStream {
   std::string topic, type;         // "/tf", "tf2_msgs/msg/TFMessage"
   std::string frame, child_frame;  // "map", "base_link"
@@ -37,7 +38,7 @@ struct PoseTopic {
   std::vector<Remark> remarks;   // what was inferred or left out
 };
 
-/// What is not given ("") may be anything.
+/// A field that is "" allows any value.
 struct PoseSelection {
   std::string topic, frame, child_frame;
 };
@@ -45,24 +46,27 @@ struct PoseSelection {
 /// All streams of poses in the order of the bag, at most 10,000. Errors as read_bag (host/formats/files).
 std::vector<PoseStream> pose_streams(const std::filesystem::path& path);
 
-/// Whether a robot or a filter publishes such poses of itself: odometry, transforms and poses with a covariance by their
-/// type, others by their topic's name. A topic whose name speaks of ground truth or of a tracking system holds none.
+/// Whether a robot or a filter publishes such poses of itself. The type shows it for odometry, transforms and
+/// poses with a covariance, the topic's name for others. A topic whose name contains a word for ground truth
+/// or for a tracking system counts as no estimate.
 bool is_estimate(const PoseStream& stream);
 
-/// The only stream that is selected. If several are, the only one whose topic's name speaks of ground truth, or else the
-/// only one that is no estimate. An estimate is chosen only if the selection names it, because wheels that are
-/// calibrated against their own odometry seem perfect. A remark says what was inferred, and that an estimate was named.
+/// The only stream that is selected. If several are, the only one whose topic is named like ground truth, or
+/// else the only one that is not an estimate. An estimate is chosen only if the selection names it, because
+/// wheels that are calibrated against their own odometry seem perfect. A remark says what was inferred, and
+/// whether the chosen stream is an estimate.
 ///
-/// Errors  UnclearChoice with the names of the streams if none or several are left; `path` is for its text.
+/// Errors  UnclearChoice with the names of the streams if none or several remain; `path` is for its message.
 const PoseStream& chosen_stream(const std::filesystem::path& path, std::span<const PoseStream> streams,
                                 const PoseSelection& selection, std::vector<Remark>& remarks);
 
-/// The poses of the stream that is selected or can be told to be ground truth (chosen_stream). Times are header.stamp, and
-/// poses without one are left out, or those of the recorder if most have none. A remark says if stamps are far from the
-/// recorder's times or drift against them.
+/// The poses of the stream that chosen_stream selects. Times are header.stamp, and poses without a stamp are
+/// left out; but if most poses have no stamp, the recorder's times are used for all. A remark says if the
+/// stamps are far from the recorder's times or drift against them.
 ///
-/// Errors  UnclearChoice (unclear_choice.hpp) with the names of the streams if none or several are left; astro::Error
-///         naming the file if it is no bag, or packs more poses than are taken from one of its size.
+/// Errors  UnclearChoice (unclear_choice.hpp) with the names of the streams if none or several remain;
+///         astro::Error naming the file if it is not a bag, or has more poses than a file of its size can
+///         hold.
 PoseTopic poses_in_bag(const std::filesystem::path& path, const PoseSelection& selection = {});
 
 }  // namespace astro::importing

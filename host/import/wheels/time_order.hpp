@@ -8,8 +8,8 @@
 
 namespace astro::importing {
 
-/// Sorts samples by their time_ns and drops all but the first of one instant, with a remark for either; `what` names
-/// them: "poses of /tracker".
+/// Sorts samples by their time_ns, and drops all but the first of those with equal times, with a remark for
+/// either. `what` names the samples, for example "poses of /tracker".
 template <class Sample>
 void order_by_time(std::vector<Sample>& samples, const std::string& what, std::vector<Remark>& remarks) {
   if (!std::ranges::is_sorted(samples, {}, &Sample::time_ns)) {

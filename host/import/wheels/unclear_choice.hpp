@@ -7,7 +7,7 @@
 
 namespace astro::importing {
 
-/// What a file alone does not tell. Values: what there is to choose from.
+/// What cannot be decided from a file alone. Values: what there is to choose from.
 enum class WheelProblem {
   columns_unclear,
   joints_unclear,
@@ -17,12 +17,12 @@ enum class WheelProblem {
   nothing_to_choose
 };
 
-/// What a remark says of a choice. Values: the joints of the left and of the right wheel; the stream of poses
-/// and its type.
+/// What a remark reports about a choice. Values: the joints of the left and of the right wheel; the stream of
+/// poses and its type.
 enum class ChoiceRemark { joints_recognised, poses_recognised, poses_may_be_estimate };
 
-/// What was meant cannot be told from a file alone, or is not in it; values() is what there is to choose
-/// from.
+/// Thrown if a file alone does not show what was meant, or does not contain it; values() lists what there is
+/// to choose from.
 class UnclearChoice : public Error {
  public:
   UnclearChoice(const std::string& sentence, const std::vector<std::string>& choices, WheelProblem unclear)
@@ -30,7 +30,7 @@ class UnclearChoice : public Error {
               choices.empty() ? WheelProblem::nothing_to_choose : unclear, choices) {}
 };
 
-/// The choices between commas.
+/// The choices separated by commas; "none" if there are none.
 inline std::string listed(const std::vector<std::string>& choices) {
   std::string text;
   for (const std::string& choice : choices) text += (text.empty() ? "" : ", ") + choice;

@@ -21,11 +21,11 @@ struct WheelColumns {
   bool operator==(const WheelColumns&) const = default;
 };
 
-/// The columns with these names. A name has words and a unit at its end, in any case and with any marks between:
-/// "time_s", "Time (ms)", "stamp_ns"; "left_counts" (also ticks, pulses, steps), "Right wheel [rad]", "left_deg",
-/// "left_m", "left_mm"; with the word "delta" or "per_interval" they are travel per interval. A name of another kind
-/// stands for a column that is not used. Nothing if one of the three is not there or not unique, or the wheels have
-/// different units.
+/// The columns with these names. A name consists of words and a unit at its end, in any case and with any
+/// separators: "time_s", "Time (ms)", "stamp_ns"; "left_counts" (also ticks, pulses, steps), "Right wheel
+/// [rad]", "left_deg", "left_m", "left_mm". With the word "delta" or "per_interval" the values are travel per
+/// interval. A column with a name of another kind is not used. Nothing if one of the three columns is missing
+/// or not unique, or if the wheels have different units.
 std::optional<WheelColumns> wheel_columns(std::span<const std::string_view> names);
 
 }  // namespace astro::importing

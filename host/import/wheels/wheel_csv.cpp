@@ -33,13 +33,13 @@ constexpr std::size_t kMostCells = 1000;
   throw Error(fmt::format("{}, line {}: {}", name, line, what), problem, std::move(values));
 }
 
-/// The lines of a text file of any size, without their line ends (LF or CRLF) and a byte order mark.
+/// Reads the lines of a text file of any size, without their line ends (LF or CRLF) and a byte order mark.
 class LineReader {
  public:
   LineReader(ByteSource& file, std::string name) : file_(file), name_(std::move(name)) {}
 
-  /// Nothing after the last line. The text is valid until the next call. Throws astro::Error naming the file and the
-  /// line if a line has more than 64 KiB or a NUL byte.
+  /// The next line; nothing after the last one. The text is valid until the next call. Throws astro::Error
+  /// naming the file and the line if a line has more than 64 KiB or a NUL byte.
   std::optional<std::string_view> next();
   int line() const { return line_; }  // of the last one, from 1
 
@@ -69,7 +69,7 @@ std::optional<std::string_view> LineReader::next() {
   return text;
 }
 
-/// Splits a line at the separator; several blanks are one.
+/// Splits a line at the separator; several blanks count as one.
 void split(std::string_view line, char separator, std::vector<std::string_view>& cells) {
   cells.clear();
   while (cells.size() < kMostCells) {
@@ -99,12 +99,12 @@ std::optional<double> number(std::string_view cell) {
 struct LostRows {
   int steps = 0;              // in which rows are missing
   std::int64_t first_ns = 0;  // end of the first of them
-  double part = 0;            // of the whole travel that is missing with them
+  double part = 0;            // of the whole travel, missing with them
 };
 
 constexpr double kEvenStep = 0.2, kLongerStep = 1.5;  // of the usual step
 constexpr double kMostlyEven = 0.75;                  // of all steps
-constexpr double kHeldTravel = 0.75;                  // of the expected travel: a logger that was late
+constexpr double kHeldTravel = 0.75;                  // of the expected travel; more: the logger was late
 constexpr std::size_t kFewestRows = 20;
 
 struct Step {
@@ -126,9 +126,9 @@ double usual_ns(const std::vector<Step>& steps) {
   return median_of(std::move(times_ns));
 }
 
-/// Rows that a log of travel per interval has lost. Its rows come evenly; after a longer step the row holds the travel of
-/// that step if the logger was late, but no more than any other row if those between are lost. Nothing for a log that is not
-/// even, or where the robot stood in all longer steps.
+/// Detects lost rows in a log of travel per interval, whose rows come at even intervals. After a longer step
+/// the row holds the travel of the whole step if the logger was late, but no more than any other row if rows
+/// in between were lost. Nothing if the rows are not even, or if the robot stood still in all longer steps.
 std::optional<LostRows> find_lost_rows(std::span<const WheelSample> sums) {
   if (sums.size() < kFewestRows) return std::nullopt;
   const std::vector<Step> steps = steps_of(sums);
@@ -174,18 +174,18 @@ class Table {
   }
 
  private:
-  /// A row becomes 24 bytes of wheels and 56 of odometry: with this limit at most four times the file and 64 MiB. Rows of 20
-  /// characters and more are never too many.
+  /// A row takes 24 bytes of memory as wheels and 56 as odometry. This limit keeps that below four times the
+  /// file's size plus 64 MiB. A file whose rows have 20 characters or more never exceeds it.
   static constexpr std::size_t kRowBytes = 80, kFreeBytes = std::size_t{56} << 20;
   static constexpr double kBytesPerByte = 3.9;
 
-  /// The first line that is not empty: names, or a row if the names are given.
+  /// Takes the first line that is not empty: the names of the columns, or a row if the names are given.
   void begin(std::string_view line) {
     separator_ = separator_of(line);
     split(line, separator_, cells_);
     choose_columns();
     if (given_.columns.empty()) return;
-    // Names although they are given: none of the three cells is a number.
+    // The line holds names although they are given if none of the three cells is a number.
     for (const std::size_t at : {columns_.time, columns_.left, columns_.right})
       if (number(cell(at))) return row();
   }
@@ -224,7 +224,7 @@ class Table {
 
   void row() {
     if (cell(columns_.time).empty() || cell(columns_.left).empty() || cell(columns_.right).empty()) {
-      // What a row of travel per interval does not say is missing in all rows after it.
+      // Travel that is missing in one row of travel per interval is missing in all positions after it.
       if (columns_.per_interval)
         refuse_line(
             name_, lines_.line(),
@@ -277,7 +277,7 @@ class Table {
   }
 
   void refuse_lost_rows() const {
-    constexpr double kHarmless = 1e-4;  // of the travel: a tenth of what calibrations are good for
+    constexpr double kHarmless = 1e-4;  // of the travel: a tenth of the accuracy of calibrations
     const auto lost = find_lost_rows(track_.samples);
     if (!lost || lost->part < kHarmless) return;
     const std::string places = std::to_string(lost->steps),

@@ -7,8 +7,8 @@
 
 namespace astro::importing {
 
-/// What is wrong with a table of wheels, or was left out of it. Values: the file, the line, and of a cell its
-/// column and its text; but
+/// What is wrong with a table of wheels, or was left out of it. Values: the file, the line, and for a cell
+/// its column and its text; but
 ///   rows_lost                        the file, how many places, the time of the first in seconds, and the
 ///                                    percentage of the travel that is missing
 ///   rows_incomplete, times_repeated  the file and how many rows
@@ -26,22 +26,23 @@ enum class WheelTableProblem {
   times_repeated
 };
 
-/// What is known of a table of wheels besides the file.
+/// What is known about a table of wheels besides its content.
 struct WheelTable {
-  /// "time_s,left_counts,right_counts": the names of the columns (wheel_columns.hpp), which take the place of those in
-  /// the file; a name of any other kind, such as "-", stands for a column that is not used.
+  /// The names of the columns (wheel_columns.hpp), such as "time_s,left_counts,right_counts", which replace
+  /// those in the file. A name of any other kind, such as "-", marks a column that is not used.
   std::string columns;
-  /// Each row is the travel since the row before, whatever the names say.
+  /// Each row is the travel since the row before, whatever the column names are.
   bool per_interval = false;
 };
 
-/// The wheels in a text table: cells between commas, semicolons, tabs or blanks, the names of the columns in the first
-/// row unless they are given, lines that begin with # left out. Times are kept exact to a nanosecond. Rows with an empty
-/// cell of the three are left out and counted in a remark.
+/// The wheels in a text table. Cells are separated by commas, semicolons, tabs or blanks. The first row has
+/// the names of the columns unless they are given, and lines that begin with # are left out. Times are exact
+/// to a nanosecond. A row in which one of the three cells is empty is left out and counted in a remark.
 ///
-/// Errors  UnclearChoice (unclear_choice.hpp) with the names in the file if they do not tell the three columns; astro::Error
-///         naming `name`, line and column for anything else than a finite number, for times that do not rise, and for a
-///         table of fewer than two rows or of more than can be held.
+/// Errors  UnclearChoice (unclear_choice.hpp) with the names in the file if they do not identify the three
+///         columns; astro::Error naming `name`, line and column for a cell that is not a finite number, for
+///         times that fall, for empty cells or lost rows of travel per interval, and for a table of fewer
+///         than two rows or of more than memory allows.
 WheelTrack wheels_in_table(ByteSource& file, const std::string& name, const WheelTable& table = {});
 
 }  // namespace astro::importing

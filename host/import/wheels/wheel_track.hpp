@@ -7,12 +7,13 @@
 #include "host/base/error.hpp"
 #include "host/import/wheels/joint_names.hpp"
 
-/// What the wheels of any robot did, as it was recorded and before any geometry is applied.
+/// Travel of any robot's wheels as it was recorded, before any geometry is applied.
 namespace astro::importing {
 
 enum class WheelUnit : std::uint8_t { counts, radians, metres };
 
-/// Travel since some start, forward positive. Counts are whole numbers up to 2^53 unless the file has others.
+/// Travel since some start, forward positive. Counts are whole numbers up to 2^53 unless the file has
+/// fractions.
 struct WheelSample {
   std::int64_t time_ns = 0;
   double left = 0, right = 0;
@@ -26,7 +27,7 @@ enum class WheelClock : std::uint8_t {
   receipt,  // when the recorder received it, because the messages have no stamp
 };
 
-/// Times increase strictly; travel neither wraps nor is counted per interval any more.
+/// Times increase strictly; travel is continuous and cumulative.
 struct WheelTrack {
   WheelUnit unit = WheelUnit::counts;
   WheelClock clock = WheelClock::file;

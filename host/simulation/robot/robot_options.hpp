@@ -24,20 +24,20 @@ struct RobotOptions {
   double motor_mismatch = sim::Config().motor_mismatch;  // right motor constant over left, minus one
   bool on_stand = false;                                 // with the wheels off the ground
   std::vector<std::string> wiring_faults = {};           // by name, as wiring_fault_names() lists them
-  std::optional<double> wall_ahead_m = {};               // a straight wall so far before its front
+  std::optional<double> wall_ahead_m = {};               // distance of a straight wall ahead of its front
   std::uint64_t seed = sim::Config().seed;               // of all noise
 };
 
-/// "left-motor-reversed, right-motor-reversed, ...": the wiring faults that there are.
+/// The names of all wiring faults: "left-motor-reversed, right-motor-reversed, ...".
 std::string wiring_fault_names();
 
-/// "" for the name of a wiring fault; else the sentence that it is none.
+/// "" if `name` is a wiring fault, else an error message.
 std::string wrong_wiring_fault(const std::string& name);
 
 /// Throws astro::Error for an unknown wiring fault.
 sim::Config config_of(const RobotOptions& options);
 
-/// Of a simulated robot's flash.
+/// Size of a simulated robot's flash.
 std::size_t flash_bytes();
 
 }  // namespace astro::simulation

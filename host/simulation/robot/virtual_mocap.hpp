@@ -30,7 +30,7 @@ class VirtualMocap {
   /// Must be called once per millisecond; returns a sample when one is due.
   std::optional<recording::TruthSample> advance(std::uint64_t time_us, const sim::Pose& truth);
 
-  /// The robot's clock, which stamps the samples, has restarted at 0.
+  /// Must be called when the robot's clock, which stamps the samples, has restarted at 0.
   void restart_clock() { due_us_ = 0; }
 
  private:

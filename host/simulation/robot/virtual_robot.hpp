@@ -17,10 +17,10 @@ class VirtualRobot {
  public:
   VirtualRobot(const sim::Config& config, const MocapConfig& mocap);
 
-  /// One millisecond: the control tick, the main loop, then the world.
+  /// Runs one millisecond: the control tick, the main loop, then the world.
   void step();
 
-  /// The processor restarts for this reason; the robot stays where it is.
+  /// Restarts the processor for this reason; the robot stays where it is.
   void restart(hal::ResetCause cause);
 
   sim::Board& board() { return board_; }

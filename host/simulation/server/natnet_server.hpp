@@ -11,10 +11,10 @@
 
 namespace astro::simulation {
 
-/// A NatNet server with one rigid body, which sends to each client that asks and keeps asking. Frames go to the
-/// socket that the client asked from.
+/// A NatNet server with one rigid body. It sends frames to each client for as long as the client keeps
+/// asking, to the socket from which the client asked.
 ///
-/// Bounds  16 clients. One that has not been heard for five seconds is dropped.
+/// Bounds  16 clients. A client that has sent nothing for five seconds is dropped.
 class NatNetServer {
  public:
   /// `at`: its address for commands. Throws astro::Error if that is in use.

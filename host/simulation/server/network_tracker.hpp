@@ -17,25 +17,25 @@ struct NetworkTrackerConfig {
   std::optional<std::uint16_t> vrpn_port;    // 0: any that is free; nothing: no VRPN
   std::optional<std::uint16_t> natnet_port;  // the same for NatNet
   truth::natnet::Version natnet_version{4, 1};
-  bool everywhere = false;  // also other computers may connect
+  bool everywhere = false;  // other computers may connect, too
   std::string body = "ASTRO";
   TrackingFaults faults;
-  std::shared_ptr<FrameSink> also;  // where else frames go; nothing: nowhere
+  std::shared_ptr<FrameSink> also;  // another receiver of the frames; may be empty
 };
 
-/// The tracking software beside a simulated robot: what its cameras see goes out by the protocols that are
-/// asked for. Its clock shows about the time of day, and passes with the simulation.
+/// The tracking software beside a simulated robot: sends what its cameras see by the configured protocols.
+/// Its clock starts at the time of day and advances with the simulation.
 class NetworkTracker {
  public:
   /// Throws astro::Error if a port is in use.
   explicit NetworkTracker(const NetworkTrackerConfig& config);
 
-  /// A millisecond of the simulation, and what the cameras have seen in it.
+  /// Advances the simulation's time by a millisecond, in which the cameras have seen `seen`.
   void step(const std::vector<recording::TruthSample>& seen);
   /// Serves the clients; call often.
   void work();
 
-  /// Empty if it does not serve that.
+  /// Empty if this protocol is not served.
   const std::optional<VrpnServer>& vrpn() const { return vrpn_; }
   const std::optional<NatNetServer>& natnet() const { return natnet_; }
 

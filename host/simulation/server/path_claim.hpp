@@ -8,11 +8,12 @@
 
 namespace astro::simulation {
 
-/// Shows the other simulators of this computer that a path is in use: that of a link, or the file of a robot's flash. It is the name
-/// of an abstract socket, which belongs to one process and ends with it, however it ends.
+/// Marks a path as in use for the other simulators on this computer: the path of a link, or of the file of a
+/// robot's flash. The mark is the name of an abstract socket, which belongs to one process and disappears
+/// with it, however the process ends.
 class PathClaim {
  public:
-  /// Nothing if another process has claimed the path. Throws astro::Error if it cannot be known.
+  /// Nothing if another process has claimed the path. Throws astro::Error if this cannot be determined.
   static std::optional<PathClaim> of(const std::filesystem::path& path);
 
  private:

@@ -37,7 +37,7 @@ std::string device_of(int fd) {
   return name.data();
 }
 
-// The settings belong to the terminal, not to the descriptor: they stay when it is closed.
+// The settings belong to the terminal, not to the descriptor, so they stay when the descriptor is closed.
 void make_raw(const std::string& device) {
   const Descriptor hosts_end(open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
   if (!hosts_end) fail(device);
@@ -47,7 +47,7 @@ void make_raw(const std::string& device) {
   if (tcsetattr(hosts_end.get(), TCSANOW, &settings) != 0) fail("tcsetattr");
 }
 
-// Names the terminal without opening it: the terminal still knows whether a host has it open.
+// Refers to the terminal without opening it, so that the terminal still shows whether a host has it open.
 Descriptor refer_to(const std::string& device) {
   Descriptor reference(open(device.c_str(), O_PATH | O_CLOEXEC));
   if (!reference) fail(device);
@@ -60,7 +60,8 @@ PathClaim claim(const fs::path& link) {
               {link.string()});
 }
 
-/// Whether it is the link of a simulator, which has ended if nobody has claimed the link, or leads nowhere.
+/// Whether the path is the link of a simulator, running or ended. The simulator has ended if nobody has
+/// claimed the link, or if the link leads nowhere.
 bool left_behind(const fs::path& link) {
   std::error_code error;
   const fs::path target = fs::read_symlink(link, error);
@@ -69,8 +70,9 @@ bool left_behind(const fs::path& link) {
   return by_descriptor || target.parent_path() == "/dev/pts";  // the latter by earlier versions
 }
 
-/// A link in the runtime folder leads to a terminal, or to the link of a simulator elsewhere. Takes the claim
-/// for a moment to test it: a simulator that starts at that moment is refused the name, and its link stays.
+/// Whether the simulator of a link in the runtime folder has ended. The link leads to a terminal, or to a
+/// simulator's link elsewhere. The test takes the claim for a moment, so a simulator that starts at that
+/// moment is refused the path, and the link stays.
 bool is_dead(const fs::path& link) {
   std::error_code error;
   const fs::path target = fs::read_symlink(link, error);
@@ -160,7 +162,7 @@ RuntimeLink::RuntimeLink(const fs::path& folder, const fs::path& pty) : target_(
   for (int i = 1; i <= kNames; ++i) {
     const std::string number = i == 1 ? "" : "-" + std::to_string(i);
     const fs::path link = folder / (pty.stem().string() + number + ".pty");
-    if (fs::is_symlink(link, error) && !fs::exists(link, error)) fs::remove(link, error);  // a dead one's
+    if (fs::is_symlink(link, error) && !fs::exists(link, error)) fs::remove(link, error);  // dead link
     fs::create_symlink(target_, link, error);
     if (error == std::errc::file_exists) continue;
     if (!error) link_ = link;

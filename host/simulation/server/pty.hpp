@@ -10,8 +10,7 @@
 
 namespace astro::simulation {
 
-/// What keeps a simulator from serving at a path, which is the value. The last one is about the file of its
-/// flash.
+/// Why a simulator cannot serve at a path. Value: the path. The last two are about the file of its flash.
 enum class ServerProblem {
   path_in_use,
   path_taken,
@@ -21,11 +20,11 @@ enum class ServerProblem {
   flash_in_use
 };
 
-/// The robot's end of a pseudo terminal, and a symlink by which hosts find the other end. Raw from the start:
-/// nothing is echoed or translated, whoever opens it.
+/// The robot's end of a pseudo terminal, and a symlink by which hosts find the other end. The terminal is raw
+/// from the start, so nothing is echoed or translated, whoever opens it.
 ///
-/// The symlink leads to a descriptor of this process, /proc/PID/fd/N, and not to /dev/pts/N: if the process is killed, its link
-/// leads nowhere, although the terminal's number is soon that of another simulator.
+/// The symlink leads to a descriptor of this process, /proc/PID/fd/N, and not to /dev/pts/N, because another
+/// simulator's terminal may soon have that number. If the process is killed, its link leads nowhere.
 class Pty {
  public:
   /// Throws astro::Error if `link` exists and is no symlink of a simulator that has ended, or cannot be
@@ -53,7 +52,7 @@ class Pty {
 
  private:
   Descriptor master_;
-  Descriptor reference_;          // to the hosts' end
+  Descriptor reference_;          // refers to the hosts' end
   std::filesystem::path target_;  // of the links
   std::vector<std::filesystem::path> links_;
   std::vector<PathClaim> claims_;  // of the links
@@ -63,8 +62,9 @@ class Pty {
 /// claimed, and the sockets NAME.pty.mocap beside them. Changes nothing else.
 void sweep_dead_links(const std::filesystem::path& folder);
 
-/// A symlink in the runtime folder to a simulator elsewhere, for as long as the object lives; none if the
-/// simulator is in that folder anyway or all names are in use. Other programs find the simulator by it.
+/// A symlink in the runtime folder to a simulator elsewhere, by which other programs find the simulator. It
+/// exists for as long as the object lives. There is none if the simulator is in that folder anyway or all
+/// names are in use.
 class RuntimeLink {
  public:
   RuntimeLink(const std::filesystem::path& folder, const std::filesystem::path& pty);

@@ -13,14 +13,14 @@ class ServedRobot {
  public:
   virtual ~ServedRobot() = default;
 
-  /// One millisecond.
+  /// Advances by one millisecond.
   virtual void step() = 0;
   /// Virtual time; may restart at 0 with the robot.
   virtual std::uint64_t now_us() = 0;
 
-  /// Whether it drives, and stops by itself if its host gives no sign of life.
+  /// Whether the robot drives, and stops by itself if its host gives no sign of life.
   virtual bool drives() { return false; }
-  /// Whether its host gives the motors' voltages itself, and regulates with them.
+  /// Whether the host sets the motors' voltages itself, in its own control loop.
   virtual bool is_regulated() { return false; }
 
   // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1.

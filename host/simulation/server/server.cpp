@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// Of bytes that a host has not taken. Beyond that the robot's own queue fills, and it drops frames.
+// Limit of the bytes that a host has not taken. Beyond it the robot's own queue fills, and it drops frames.
 constexpr std::size_t kMostOutgoing = 1U << 16;
 constexpr std::uintmax_t kMostFlashBytes = std::uintmax_t{8} << 20;  // the largest of a Teensy's family
 // How far virtual time may run ahead of a host in fast motion: for how long after its last bytes, and how many steps at once.
@@ -30,19 +30,21 @@ struct Lead {
   int steps;  // of a millisecond, between two looks for bytes
 };
 constexpr Lead kLead{100'000, 50};
-// While the robot drives. A sign of life between two velocities, or bytes of another program or of a relay, let time pass
-// once more, which must not take the robot to its command time-out of 200 ms. More than 50 ms, after which drivers give a sign of life
-// by the robot's clock.
+// While the robot drives. A sign of life between two velocities, or bytes of another program or of a relay,
+// start the silence anew; even then the robot must not reach its command time-out of 200 ms. More than the 50
+// ms after which drivers give a sign of life by the robot's clock.
 constexpr Lead kLeadOfDriver{70'000, 15};
-// While a host regulates the motors' voltages itself, once in 20 ms at the slowest: what it decides must meet the robot that
-// it has seen, or its loop swings on a busy machine as it would on no robot.
+// While a host regulates the motors' voltages itself, at least once in 20 ms. Its output must reach the robot
+// soon after the measurement. Otherwise its control loop oscillates on a busy machine, as it would with no
+// real robot.
 constexpr Lead kLeadOfRegulator{30'000, 1};
 // In real time: how long a driver may be silent while the robot drives. The shortest command time-out is 200 ms.
 constexpr std::uint64_t kSilenceOfDriver_us = 150'000;
-// Turns of this server, each of a millisecond at least, for which a host may take no bytes, or send none, before time goes on
-// without it. On a busy machine a program gets no turn for some hundred milliseconds, and a robot that stops by its own time-out
-// then surprises its owner. Turns and not seconds, because a machine that gives the host no time gives this server little, too.
-// Fast motion promises nothing about real time, and a virtual machine may hold up one of its processors for some seconds.
+// How long time waits for a host that takes no bytes or sends none, in turns of this server, each of at least
+// a millisecond. On a busy machine a program may not run for some hundred milliseconds, and a robot that then
+// stops by its own time-out surprises its owner. Turns are counted and not seconds, because a machine that
+// gives the host no time gives this server little, too. Fast motion waits longer, because it promises nothing
+// about real time, and a virtual machine may stop one of its processors for some seconds.
 constexpr int kPatience = 1000, kPatienceInFastMotion = 10'000;
 
 const Lead& lead(ServedRobot& robot) {
@@ -103,7 +105,7 @@ Channel::Channel(ServedRobot& robot, int port, std::filesystem::path link)
   if (robot_.present(port_))
     pty_.emplace(link_);
   else
-    const Pty probe(link_);  // so that a bad path is an error now, and not when the port appears
+    const Pty probe(link_);  // so that a bad path is an error now, not when the port appears
 }
 
 pollfd Channel::waits_for() const {
@@ -214,8 +216,7 @@ void Server::receive() {
   if (!heard) return;
   last_heard_us_ = robot_->now_us();
   turns_waited_ = 0;
-  // A step now answers the host at once. Except in fast motion it is one of the steps that real time
-  // requires.
+  // A step now answers the host at once. Except in fast motion it is one of the steps that are due anyway.
   if (!config_.fast && !pace_.may_step_early(Clock::now())) return;
   step();
   pace_.stepped();
@@ -239,7 +240,8 @@ bool Server::host_is_late() {
   return silence_us >= lead(*robot_).silence_us;
 }
 
-/// Virtual time waits for a host that is late because its machine is busy, but not for one that hangs or has gone.
+/// Virtual time waits for a host that is late because its machine is busy, but only for a limited time if the
+/// host hangs, and not at all if it has disconnected.
 void Server::wait_for_host() {
   if (!connected() || turns_waited_ >= (config_.fast ? kPatienceInFastMotion : kPatience)) return;
   const Clock::time_point now = Clock::now();

@@ -37,9 +37,9 @@ struct ServerConfig {
 /// The content of a flash file; empty if there is none. Throws astro::Error if it cannot be read.
 std::vector<std::uint8_t> load_flash(const std::filesystem::path& path);
 
-/// The robot as this server starts it: its flash holds load_flash(server.flash), and its serial number is the
-/// same at every start and another one for each robot, because it follows from where the robot keeps its
-/// parameters, or else from where it is. Throws as config_of(robot) and load_flash().
+/// The robot as this server starts it. Its flash holds load_flash(server.flash). Its serial number is the
+/// same at every start and differs between robots, because it is a hash of the flash file's path, or of the
+/// pty's path if there is no flash file. Throws as config_of(robot) and load_flash().
 sim::Config config_of(const RobotOptions& robot, const ServerConfig& server);
 
 /// One port of a robot at one pty. The pty exists while the robot's port does.
@@ -50,7 +50,7 @@ class Channel {
 
   /// Passes bytes from the host to the robot; returns false if there were none.
   bool receive();
-  /// Passes bytes from the robot to the host; returns true if some are left because the host has not taken
+  /// Passes bytes from the robot to the host; returns true if some remain because the host has not taken
   /// them.
   bool transmit();
   /// Follows changes: the robot's port appears or disappears, a program opens or closes the pty.
@@ -71,19 +71,21 @@ class Channel {
 
 /// A simulated robot behind a pty, for as long as the process lives.
 ///
-/// Real time: one virtual millisecond per real millisecond; while the robot drives, time waits for a driver that is late, as in
-/// fast motion. Fast: virtual time runs ahead as long as a host
-/// sends something at least every 100 virtual ms, or 70 while the robot drives (its client pings by the robot's clock), or 30 while
-/// a host regulates the motors' voltages, and reads
-/// what it is sent; else it waits for the host, and after ten seconds falls back to real time, so that the robot's command time-out
-/// still notices a host that hangs. One that has gone is not waited for.
+/// Real time: one virtual millisecond per real millisecond. If the robot drives and its driver is late,
+/// virtual time waits for the driver, as in fast motion.
+///
+/// Fast motion: virtual time runs ahead as long as a host reads what it is sent, and sends something at least
+/// every 100 virtual ms (70 while the robot drives, because its client pings by the robot's clock; 30 while a
+/// host regulates the motors' voltages). Otherwise virtual time waits for the host. After ten seconds it
+/// falls back to real time, so that the robot's command time-out still notices a host that hangs. Time does
+/// not wait for a host that has disconnected.
 class Server {
  public:
-  /// A VirtualRobot. Throws astro::Error if a pty, the file of the flash or a port cannot be used.
+  /// Serves a VirtualRobot. Throws astro::Error if a pty, the file of the flash or a port cannot be used.
   Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config);
-  /// The same of config_of(robot, config).
+  /// The same with config_of(robot, config).
   Server(const RobotOptions& robot, const MocapConfig& mocap, const ServerConfig& config);
-  /// Another robot, whose flash holds load_flash(config.flash) already. Throws the same.
+  /// Serves another robot, whose flash must already hold load_flash(config.flash). Throws the same.
   Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config);
   ~Server();
 
@@ -105,20 +107,20 @@ class Server {
   bool runs_ahead(bool host_is_behind);
   void step();
   void wait();
-  void claim_flash();  // throws if it cannot be kept, or is that of another simulator
+  void claim_flash();  // throws if the file cannot be written, or is in use by another simulator
   void save_flash();
 
   ServerConfig config_;
   std::unique_ptr<ServedRobot> robot_;
   std::deque<Channel> channels_;
   NetworkTracker tracker_;
-  std::optional<TruthServer> truth_;  // after the ptys, whose links show that the paths are free
+  std::optional<TruthServer> truth_;  // created after the ptys, whose links show that the paths are free
   std::uint64_t last_heard_us_ = 0;   // virtual
-  int turns_waited_ = 0;              // since a host was heard, and took what it was sent
+  int turns_waited_ = 0;              // since a host sent something, and took what it was sent
   Clock::time_point turn_at_{};       // when the last of these turns was
   Pace pace_;
   std::vector<std::uint8_t> saved_flash_;
-  std::optional<PathClaim> flash_claim_;  // two robots would take each other's parameters for their own
+  std::optional<PathClaim> flash_claim_;  // so that no two robots use the same parameters
 };
 
 }  // namespace astro::simulation

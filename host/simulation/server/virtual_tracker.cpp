@@ -6,10 +6,10 @@ namespace astro::simulation {
 namespace {
 
 constexpr double kMarkers_m = 0.21;      // above the floor
-constexpr double kHeightNoise_m = 2e-4;  // as in the plane
+constexpr double kHeightNoise_m = 2e-4;  // the same as in the plane
 constexpr double kTilt_rad = 2e-3;
 
-/// A turn about z behind small tilts about x and y.
+/// The pose turned about z, after small tilts about x and y.
 truth::Pose3 pose_of(const recording::TruthSample& sample, double height_m, double tilt_x_rad,
                      double tilt_y_rad) {
   const double c = std::cos(sample.theta_rad / 2), s = std::sin(sample.theta_rad / 2);

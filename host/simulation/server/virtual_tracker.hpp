@@ -24,7 +24,7 @@ struct TrackedFrame {
   truth::Pose3 pose;
 };
 
-/// Takes frames as they leave the tracker.
+/// Receives frames as they leave the tracker.
 class FrameSink {
  public:
   FrameSink() = default;
@@ -36,15 +36,15 @@ class FrameSink {
   virtual void send(const TrackedFrame& frame) = 0;
 };
 
-/// Makes frames in space of a robot's poses on the floor: with z up, at the height of its markers, with the
-/// small tilt of an uneven floor. They come out after the latency; some are lost. Deterministic.
+/// Makes 3D frames from a robot's poses on the floor, with z up, at the height of its markers, and with the
+/// small tilt of an uneven floor. Frames leave after the latency; some are lost. Deterministic.
 class VirtualTracker {
  public:
   explicit VirtualTracker(const TrackingFaults& faults) : faults_(faults), random_(faults.seed) {}
 
-  /// A pose that the cameras see now.
+  /// Takes a pose that the cameras see now.
   void take(std::int64_t now_us, const recording::TruthSample& sample);
-  /// The next frame that leaves now or has left; call until there is none.
+  /// The next frame that is due; call it until there is none.
   std::optional<TrackedFrame> next(std::int64_t now_us);
 
  private:

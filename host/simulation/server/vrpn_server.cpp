@@ -18,12 +18,12 @@ constexpr std::size_t kMostClients = 16;
 constexpr int kMostWaiting = 1 << 16;
 constexpr std::uint16_t kFirstUserPort = 1024;
 
-// Ids of ours. Clients take them from the descriptions.
+// Our own ids. Clients learn them from the descriptions.
 constexpr std::int32_t kControl = 0, kBody = 1;
 constexpr std::int32_t kPose = 0, kPing = 1, kPong = 2;
 constexpr std::string_view kPingName = "vrpn_Base ping_message", kPongName = "vrpn_Base pong_message";
 
-/// The port in "HOST PORT", which ends with a NUL; 0 if there is none that may be called.
+/// The port in "HOST PORT", which ends with a NUL; 0 if there is none to which the server may connect.
 std::uint16_t port_in(std::string_view request) {
   const std::size_t space = request.find(' ');
   if (space == std::string_view::npos) return 0;
@@ -32,7 +32,7 @@ std::uint16_t port_in(std::string_view request) {
   return port < kFirstUserPort ? std::uint16_t{0} : port;
 }
 
-/// Whoever has connected gets this first.
+/// The first bytes that each client gets.
 Bytes greeting(const std::string& body, std::int64_t now_us) {
   Bytes bytes = vrpn::cookie();
   vrpn::append_description(bytes, vrpn::kSenderDescription, kControl, "VRPN Control", now_us);

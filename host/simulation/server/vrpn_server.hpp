@@ -12,10 +12,12 @@
 
 namespace astro::simulation {
 
-/// A VRPN server with one tracked body, for our own client and for those of others: serves whoever connects by
-/// TCP, calls back whoever asks by UDP, and answers pings. Poses go by TCP in either case.
+/// A VRPN server with one tracked body, for our own client and for those of others. It serves each client
+/// that connects by TCP, connects back to each one that asks by UDP, and answers pings. Poses go by TCP in
+/// either case.
 ///
-/// Bounds  16 clients. One that does not read is disconnected beyond 64 KiB; one that sends nonsense, at once.
+/// Bounds  16 clients. A client is disconnected if more than 64 KiB wait for it, and at once if it sends
+///         anything that is not VRPN.
 class VrpnServer {
  public:
   /// `at`: its address for TCP and UDP. Throws astro::Error if that is in use.
@@ -32,7 +34,7 @@ class VrpnServer {
  private:
   struct Client {
     net::Socket socket;
-    bool called = false;  // and has not answered yet
+    bool called = false;  // we connect back to it, and it has not answered yet
     bool closed = false;
     Bytes waiting{};
     truth::vrpn::StreamReader reader{};

@@ -33,7 +33,7 @@ Trajectory driven(const TrialSetup& setup, int run, const DriveModel& model, std
   return synthetic_drive(course_of(setup, run), model, name_of(setup, run), seed);
 }
 
-/// Of the square itself: for end poses the line after it does not count.
+/// The end error of the square itself, without the line after it.
 calibration::EndPose end_error_of(Trajectory run, const TrialSetup& setup, const DriveModel& model) {
   if (setup.windup_rad > 0) {
     const double line_s = kEndLine_m / model.speed_mps + model.speed_mps / model.acceleration_mps2;

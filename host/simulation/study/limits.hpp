@@ -9,8 +9,8 @@
 /// Limits that set-ups and programmes have to keep.
 namespace astro::simulation::study {
 
-/// What a set-up or a programme exceeds. Values of out_of_range: what it is, and its value; of exceeds_memory
-/// the hours of driving.
+/// What a set-up or a programme exceeds. Values: for out_of_range the quantity and its value; for
+/// exceeds_memory the hours of driving.
 enum class LimitProblem { out_of_range, exceeds_memory };
 
 /// Drives are held in memory as a whole; 20 million samples of counts and ground truth are about 1 GB.

@@ -67,7 +67,7 @@ Course course_of(const Programme& programme, std::size_t kind, Sense sense) {
   }
 }
 
-/// use(course, name of such a run, how many): kind by kind, cw before ccw.
+/// Calls use(course, name of such a run, number of runs) for each kind and direction, cw before ccw.
 template <class Use>
 void for_each_course(const Programme& programme, Use use) {
   for (std::size_t kind = 0; kind < kKinds; ++kind)
@@ -168,7 +168,7 @@ Forecast forecast(const Programme& programme) {
   calibration::MlOptions options;
   options.noise = programme.noise;
   calibration::WheelFactors factors = model.actual;
-  // Not zero, so that it counts as unknown. What the runs tell of e does not depend on so small a value.
+  // Not zero, so that e counts as unknown. So small a value does not change the information about e.
   if (programme.with_e) factors.e = 1e-9;
   result.covariance = cramer_rao_bound(runs, factors, {}, options);
   result.se = errors_of(result.covariance, model.actual);

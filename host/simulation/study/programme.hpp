@@ -10,7 +10,7 @@
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/trajectory.hpp"
 
-/// The precision that a programme of drives will give, computed before anything is driven.
+/// Computes the precision that a programme of drives will give before anything is driven.
 namespace astro::simulation::study {
 
 /// Kinds of run. A square is four lines and four turns on the spot; a spin turns on the spot; a circle is one
@@ -20,8 +20,8 @@ inline constexpr std::size_t kKinds = 4;
 inline constexpr int kMostRuns = 1000;  // of a programme
 inline constexpr std::array<std::string_view, kKinds> kKindNames = {"squares", "lines", "spins", "circles"};
 
-/// Number of runs of each kind. Half of the turning runs are clockwise, also an odd one. Lines are driven
-/// forwards.
+/// Number of runs of each kind. Half of the turning runs are clockwise; of an odd number, the larger half.
+/// Lines are driven forwards.
 using Counts = std::array<int, kKinds>;
 
 /// What a programme cannot determine or exceeds. The value of too_many_runs is how many it has.
@@ -52,7 +52,7 @@ struct Programme {
   calibration::NoiseModel noise{2.645e-6, 5e-4, 0.0026179938779914943};  // 0.15 degrees
   double truth_rate_hz = 60, count_rate_hz = 100;
   double speed_mps = 0.3, yaw_rate_radps = 1.0;
-  bool with_e = false;  // e is to be found as well
+  bool with_e = false;  // e is estimated as well
 
   /// The same with other numbers of runs.
   Programme with(const Counts& other) const;
@@ -62,8 +62,8 @@ struct Programme {
 
 struct Forecast {
   Programme programme;
-  // Of a robot without errors: c_R = c_L = S = E_d = 1. Of e only if it is to be found; runs that do not show it
-  // leave it as uncertain as it is without runs, 0.1.
+  // For a robot without errors: c_R = c_L = S = E_d = 1. Includes e only if it is to be found; if the runs do
+  // not show it, its standard error is that without any runs, 0.1.
   calibration::FactorCovariance covariance = calibration::FactorCovariance::Zero();
   calibration::MlErrors se;
   calibration::DriveExtent extent;  // distance of the robot's centre, and the sum of |rotation|
@@ -73,9 +73,9 @@ struct Forecast {
 
 /// Standard errors by the Cramer-Rao bound, which maximum likelihood reaches within a few percent.
 ///
-/// Throws astro::Error where cramer_rao_bound does, for a programme without runs, for lines alone, spins
-/// alone or one circle alone, which leave a factor open, for sizes and rates that are not positive, and for
-/// more than kMostRuns.
+/// Throws astro::Error where cramer_rao_bound does; for a programme without runs; for lines alone, spins
+/// alone or one circle alone, which leave a factor undetermined; for sizes and rates that are not positive;
+/// and for more than kMostRuns.
 ///
 /// Cost    about 10 ms for each different run and 5 ms for each further one.
 Forecast forecast(const Programme& programme);

@@ -19,7 +19,7 @@
 namespace astro::simulation::study {
 namespace {
 
-// Different from the seeds of the drives, which count from 0.
+// Different from the seeds of the drives, whose indices count from 0.
 constexpr std::uint64_t kClocks = 1'000'000;
 
 void demand(bool holds, double value, const std::string& what, const std::string& permitted) {
@@ -30,7 +30,7 @@ void demand(bool holds, double value, const std::string& what, const std::string
 
 // Far more than anybody needs; larger numbers from a damaged file or a typing error would exhaust the memory.
 constexpr int kMostTrials = 10'000'000, kMostSquares = 1000, kMostCircles = 1000;
-// A maximum-likelihood estimate takes no larger e for one of tyres.
+// The maximum likelihood estimate does not accept a larger e as that of tyres.
 constexpr double kLargestE = 0.2;
 constexpr double kLargestWindup_rad = 0.1;
 

@@ -16,7 +16,7 @@
 /// What a study repeats: one robot, one programme of squares and circles, one ground truth.
 namespace astro::simulation::study {
 
-/// What is wrong with a set-up. Values: the seed's text; the model's name; of of_other_model it and that of
+/// What is wrong with a set-up. Values: the seed's text; the model's name; for of_other_model also that of
 /// the robot.
 enum class SetupProblem {
   seed_not_whole,
@@ -48,7 +48,7 @@ struct TrialSetup {
   double scale = 1.005;        // S, common to both wheels and the wheelbase
   double e = 0;                // gentle arcs turn about b (1 + e), spins about b
   /// DriveModel::windup_rad. If it is not zero, the squares have a stand after each spin and a line at the
-  /// end (square_course_with_stands). Only of the kinematic robot.
+  /// end (square_course_with_stands). Only the kinematic robot has it.
   double windup_rad = 0;
   calibration::NoiseModel noise{2.645e-6, 5e-4, 0.0026179938779914943};  // 0.15 degrees
   double count_rate_hz = 100, truth_rate_hz = 60;
@@ -58,7 +58,7 @@ struct TrialSetup {
 
   calibration::WheelFactors loaded() const { return {1, 1, wheelbase_m}; }
   calibration::WheelFactors actual() const;
-  /// Of a trial.
+  /// Number of runs in a trial.
   int run_count() const { return 2 * (runs + circles); }
   bool is_square(int run) const { return run < 2 * runs; }
   /// Whether e is one of the figures: the robot has one, or the circles could show one.
@@ -76,7 +76,7 @@ struct TrialSetup {
 };
 
 /// Keys as in the shard files. `setup_from` throws nlohmann::json::exception for a missing key or a value of
-/// another type, and astro::Error for an unknown model or a count that is none.
+/// another type, and astro::Error for an unknown model or a count that is not a whole number.
 nlohmann::json to_json(const TrialSetup& setup);
 TrialSetup setup_from(const nlohmann::json& json);
 

@@ -17,7 +17,7 @@ using calibration::FactorCovariance;
 using calibration::Precision;
 using Information = calibration::FactorCovariance;  // about c_R, c_L, b and e
 
-// The search tries this many steps to either side, enough to exchange a square for lines.
+// The search tries this many steps in either direction, enough to replace a square by lines.
 constexpr int kReach = 5;
 constexpr int kMostRounds = 20;
 constexpr double kTargetMissed = std::numeric_limits<double>::infinity();
@@ -32,7 +32,7 @@ struct Target {
   Precision factors;
   std::optional<double> e;
 
-  /// Smaller in the same proportion.
+  /// The target divided by `factor`.
   Target over(double factor) const {
     return {{factors.E_d / factor, factors.scale / factor, factors.b / factor},
             e ? std::optional(*e / factor) : std::nullopt};
@@ -46,7 +46,7 @@ double excess(const calibration::MlErrors& se, double b_m, const Target& target)
   return target.e ? std::max(most, se.e / *target.e) : most;
 }
 
-/// Of a covariance or an information; without e its row and column are zero in both.
+/// Inverts a covariance or an information matrix. Without e, its row and column are zero in both.
 Eigen::Matrix4d inverse(const Eigen::Matrix4d& matrix, bool with_e) {
   if (with_e) return matrix.inverse();
   Eigen::Matrix4d out = Eigen::Matrix4d::Zero();

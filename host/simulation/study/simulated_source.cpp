@@ -33,7 +33,7 @@ sim::Config robot_of(const TrialSetup& setup, double K_m) {
   robot.scale = setup.scale;
   robot.true_wheelbase_m = setup.actual().b_m;
   robot.true_e = setup.e;
-  // The simulator's slip is per metre that a true wheel rolls, the study's per metre of a nominal one.
+  // The simulator's slip is per metre that the true wheel rolls, the study's per metre of the nominal wheel.
   robot.slip_m = K_m / setup.scale;
   return robot;
 }
@@ -75,7 +75,7 @@ class SimulatedRobot {
         truth_(robot_),
         plan_(plan_of(setup)) {
     client_.connect();
-    client_.pump(50ms);  // through boot
+    client_.pump(50ms);  // until it has booted
     const double loaded_m = robot::RemoteParameters::fetch(client_).number("b");
     if (std::abs(loaded_m - setup.wheelbase_m) > 1e-9) robot::upload(client_, {{"b", setup.wheelbase_m}});
     parameters_ = robot::RemoteParameters::fetch(client_).numbers();

@@ -9,12 +9,13 @@ namespace astro::simulation {
 /// control and encoders are the simulator's; true wheels and wheelbase, slip, and the cameras' rate and
 /// errors are those of the set-up.
 ///
-/// One robot drives all squares and circles of a trial, as an experiment would drive and record them (speeds, rests, 100
-/// Hz telemetry). If the clock is to be estimated, the cameras' times are shifted after all is recorded; no
-/// sample of truth is outside of the drive, as for the kinematic robot.
+/// One robot drives all squares and circles of a trial, as an experiment would drive and record them (speeds,
+/// rests, 100 Hz telemetry). If the clock is to be estimated, the cameras' times are shifted after everything
+/// is recorded. As for the kinematic robot, there is no truth sample outside of the drive.
 ///
-/// Errors  beside those of DriveSource: a wind-up, which only the kinematic robot has, counts at another rate, sizes that no plan or robot takes, a robot
-///         that fails (a fault, a wheel that does not come to rest).
+/// Errors  besides those of DriveSource: a wind-up, which only the kinematic robot has; counts at another
+///         rate; sizes that no plan or robot allows; a robot that fails (a fault, a wheel that does not come
+///         to rest).
 /// Cost    about 0.2 s for ten 3 m squares.
 class SimulatedSource : public simulation::study::DriveSource {
  public:

@@ -28,8 +28,7 @@ struct Shard {
 /// threads, nor the shards change a bit of it.
 ///
 /// `meanwhile(done, total)` is called in the caller's thread, see in_parallel; its exceptions pass through.
-/// Throws astro::Error for a set-up that `source` cannot drive, for a shard without a trial, and what a drive
-/// throws.
+/// Throws astro::Error for a set-up that `source` cannot drive, and for a shard without a trial.
 std::vector<Trial> run_study(const TrialSetup& setup, const DriveSource& source, const Shard& shard, int jobs,
                              const std::function<void(int done, int total)>& meanwhile);
 

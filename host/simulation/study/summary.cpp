@@ -28,7 +28,7 @@ MeanError mean_of(std::size_t count, Read read) {
 }
 
 std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSetup& setup) {
-  // The draws need no e: what they are for, squares and lines, has none.
+  // The draws need no e, because the errors of squares and lines do not depend on it.
   const Eigen::Matrix3d of_three = covariance.topLeftCorner<3, 3>();
   const Eigen::Matrix3d root = of_three.llt().matrixL();
   const WheelFactors actual = setup.actual();
@@ -76,8 +76,8 @@ std::optional<CovarianceConsistency> covariance_consistency(const std::vector<Tr
   }
   if (values.empty()) return std::nullopt;
   const MeanError mean = mean_of(values.size(), [&](std::size_t i) { return values[i]; });
-  // The standard error of a mean of chi-squares with so many degrees of freedom, because a few trials often show
-  // too little scatter.
+  // The theoretical standard error of a mean of chi-squares, because few trials often show too little
+  // scatter.
   const auto count = static_cast<double>(values.size());
   const double expected = unknowns / count;
   return CovarianceConsistency{static_cast<int>(values.size()), mean.value, std::sqrt(2 * expected / count),
@@ -92,7 +92,7 @@ std::optional<double> median_K_m(const std::vector<Trial>& trials) {
   return median_of(std::move(values));
 }
 
-/// What maximum likelihood leaves of each factor, beside the bound and on average.
+/// Adds the errors of maximum likelihood in each factor: their ratio to the bound, and their mean.
 void add_ml(const std::vector<Errors>& errors, Summary& summary) {
   const Row& row = summary.methods.back();
   for (const Figure figure : {kE_d, kB_over_S, kScale, kCurvature}) {

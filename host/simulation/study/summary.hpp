@@ -12,8 +12,9 @@
 /// From trials to the table: the errors that each method leaves, and the bound for every method.
 namespace astro::simulation::study {
 
-/// Root mean squares over trials with their Monte Carlo standard errors (delta method:
-/// sd(e^2) / (2 rms sqrt(n))); NaN for a single answer. The first four of the bound are exact: 0.
+/// Root mean squares over trials with their Monte Carlo standard errors (delta method: sd(e^2) / (2 rms
+/// sqrt(n))), which are NaN for a single answer. The first four figures of the bound are exact, so their
+/// standard errors are 0.
 struct Row {
   std::string name;
   int trials = 0;
@@ -41,7 +42,7 @@ struct Summary {
   TrialSetup setup;
   std::vector<Row> methods;  // those with an answer in any trial, in the order of kMethods
   Row bound;
-  /// Of E_d, b / S and S, and of e if the robot has one; empty without an answer of maximum likelihood.
+  /// For E_d, b / S and S, and for e if the robot has one; empty if maximum likelihood gave no answer.
   std::vector<Ratio> ml_over_bound;
   std::vector<MeanError> ml_mean_errors;  // of the same figures; found less true, relative
   std::optional<CovarianceConsistency> ml_covariance;
@@ -49,15 +50,14 @@ struct Summary {
   std::vector<std::string> failures;    // a sentence for each method that failed
 };
 
-/// Rms and its standard error per figure. `errors` is not empty.
+/// Rms and its standard error for each figure. Precondition: `errors` is not empty.
 Row row_of(const std::string& name, const std::vector<Errors>& errors);
 
 /// The Cramer-Rao bound of the set-up as `source` drives it; its last three figures come from factors drawn
 /// from its covariance. An e of zero counts as known, so that its bound is zero.
 Row bound_of(const TrialSetup& setup, const DriveSource& source);
 
-/// `trials` in order of their index, for results that are the same to the last bit.
-/// Throws astro::Error where `source` and cramer_rao_bound do.
+/// `trials` must be in the order of their index, so that results are the same to the last bit.
 Summary summarize(const TrialSetup& setup, const DriveSource& source, const std::vector<Trial>& trials);
 
 }  // namespace astro::simulation::study

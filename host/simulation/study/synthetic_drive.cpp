@@ -78,7 +78,8 @@ class Drive {
     left_m_ += left_m;
     right_m_ += right_m;
     if (left_m != 0 || right_m != 0) {
-      // The curvature is that of the wheels. Their slip in one step, a part of the way of a step in itself, is no curve.
+      // The curvature is that of the wheels without slip, because in a single step slip can be a large part
+      // of the travel.
       const double about_m = calibration::effective_wheelbase_m(model_.actual.c_r * right_m,
                                                                 model_.actual.c_l * left_m, model_.actual);
       const double l = slipped(model_.actual.c_l, left_m), r = slipped(model_.actual.c_r, right_m);

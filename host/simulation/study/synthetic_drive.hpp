@@ -28,8 +28,8 @@ using Course = std::vector<Leg>;
 
 /// Rest, then the path, then rest again; each rest of `rest_s`. Distances in metres, angles in radians.
 Course square_course(double side_m, Sense sense, double rest_s = 1);
-/// A square with a stand after each spin. A line follows the last one, because what a spin winds up is let go of
-/// only in the next line.
+/// A square with a stand after each spin. A line follows the last stand, because the wind-up of a spin is
+/// released only in the next line.
 inline constexpr double kStand_s = 1, kEndLine_m = 0.3;
 Course square_course_with_stands(double side_m, Sense sense, double rest_s = 1);
 Course line_course(double length_m, double rest_s = 1);
@@ -38,10 +38,10 @@ Course circle_course(double radius_m, double angle_rad, double rest_s = 1);
 
 /// How the course is driven and observed.
 struct DriveModel {
-  calibration::WheelFactors loaded;  // loaded in the robot: by these it follows the course
+  calibration::WheelFactors loaded;  // loaded in the robot, which uses them to follow the course
   calibration::WheelFactors actual;  // the true ones
-  /// What tyres and castor hold back of the heading in a spin, also while the robot stands after it, and let go within
-  /// millimetres of the next line.
+  /// The part of the heading that tyres and castor hold back in a spin. It is still held while the robot
+  /// stands after the spin, and released within millimetres of the next line.
   double windup_rad = 0;
   calibration::NoiseModel noise;
   calibration::LeverArm lever;
@@ -65,7 +65,7 @@ calibration::Trajectory synthetic_drive(const Course& course, const DriveModel& 
 calibration::EndPose end_error(const calibration::Trajectory& run, const calibration::WheelFactors& loaded,
                                double rest_s = 1);
 
-/// A seed for part `index` of something seeded with `seed`: independent streams for neighbouring numbers.
+/// A seed for part `index` of something seeded with `seed`. Neighbouring numbers give independent streams.
 std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace astro::simulation::study
