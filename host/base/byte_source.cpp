@@ -20,9 +20,8 @@ constexpr std::size_t kWindowBytes = std::size_t{1} << 20;
 std::string cannot_read(const std::filesystem::path& path) { return "cannot read " + path.string(); }
 
 [[noreturn]] void fail(const std::filesystem::path& path, int code) {
-  const Error why =
-      system_error(cannot_read(path), code, ": check its permissions and the disk", FileProblem::unreadable);
-  throw Error(why.what(), why.kind(), {path.string(), system_reason(code)});
+  throw system_error(cannot_read(path), code, ": check its permissions and the disk", FileProblem::unreadable,
+                     {path.string(), system_reason(code)});
 }
 
 }  // namespace

@@ -62,9 +62,8 @@ std::string numeric(const Address& address, int flag) {
 [[noreturn]] void fail_bound(const Address& local) {
   const int code = errno;
   const std::string port = std::to_string(local.port()), host = local.host();
-  const Error why = system_error("port " + port + " of " + host + " cannot be used", code, {},
-                                 AddressProblem::port_unusable);
-  throw Error(why.what(), why.kind(), {port, host});
+  throw system_error("port " + port + " of " + host + " cannot be used", code, {},
+                     AddressProblem::port_unusable, {port, host});
 }
 
 Socket open_bound(const Address& local, int type) {

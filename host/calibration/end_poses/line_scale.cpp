@@ -1,10 +1,10 @@
 #include "host/calibration/end_poses/line_scale.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <cmath>
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/order_statistics.hpp"
 #include "host/base/pose2.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"

@@ -1,5 +1,4 @@
 #include "host/calibration/end_poses/robust_fit.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/order_statistics.hpp"
 #include "host/calibration/end_poses/compose.hpp"
 #include "host/calibration/end_poses/end_scatter.hpp"
 #include "host/calibration/end_poses/replay.hpp"

@@ -1,8 +1,9 @@
 #include "host/calibration/end_poses/robust_weight.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "host/base/order_statistics.hpp"
 
 namespace astro::calibration {
 namespace {

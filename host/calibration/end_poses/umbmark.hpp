@@ -48,7 +48,7 @@ struct Estimate {
 /// `side_m` is the leg as the odometry measured it. `loaded` are the factors in force during all of the
 /// runs; for a nominal robot {1, 1, nominal wheelbase}.
 ///
-/// Throws astro::Error with its remedy if
+/// Throws astro::Error if
 ///   a direction is missing or a value is not finite
 ///   the method is extended and a run has no heading, or one beyond half a turn
 ///   the side or a loaded factor is not positive and finite

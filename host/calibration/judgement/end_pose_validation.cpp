@@ -1,5 +1,4 @@
 #include "host/calibration/judgement/end_pose_validation.hpp"
-#include "host/calibration/judgement/remarks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/end_poses/replay.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 
 namespace astro::calibration {
 namespace {

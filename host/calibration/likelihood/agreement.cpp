@@ -1,11 +1,12 @@
 #include "host/calibration/likelihood/agreement.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+
+#include "host/base/order_statistics.hpp"
 
 namespace astro::calibration {
 namespace {

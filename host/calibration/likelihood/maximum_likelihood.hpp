@@ -127,7 +127,7 @@ struct MlEstimate {
 /// `loaded` are the factors in the robot. Their b is the scale for what is plausible; if the truth has no headings, the factors
 /// are also the start values.
 ///
-/// Throws astro::Error in one sentence with its remedy for
+/// Throws astro::Error for
 ///   no runs; a run too short, without truth, or whose two streams do not overlap (named)
 ///   headings of truth that never change although the wheels turn the robot
 ///   truth that turns the other way: mirrored axes or exchanged wheels

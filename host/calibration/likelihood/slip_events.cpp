@@ -1,11 +1,11 @@
 #include "host/calibration/likelihood/slip_events.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "host/base/order_statistics.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
 
 namespace astro::calibration {

@@ -1,5 +1,4 @@
 #include "host/calibration/likelihood/start_values.hpp"
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,7 @@
 #include <span>
 
 #include "host/base/error.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/preparation/mounting.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"

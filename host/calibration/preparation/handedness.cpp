@@ -1,5 +1,4 @@
 #include "host/calibration/preparation/handedness.hpp"
-#include "host/calibration/preparation/preparation.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
+#include "host/calibration/preparation/preparation.hpp"
 
 namespace astro::calibration {
 namespace {

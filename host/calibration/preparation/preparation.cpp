@@ -1,5 +1,4 @@
 #include "host/calibration/preparation/preparation.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <span>
 
 #include "host/base/error.hpp"
+#include "host/base/order_statistics.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/motion/wheel_path.hpp"

@@ -1,11 +1,11 @@
 #include "host/calibration/preparation/relative_pose.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "host/base/order_statistics.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
 

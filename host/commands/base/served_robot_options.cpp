@@ -1,5 +1,4 @@
 #include "host/commands/base/served_robot_options.hpp"
-#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"

@@ -1,5 +1,4 @@
 #include "host/commands/experiment/record_programme.hpp"
-#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include "host/base/folder_lock.hpp"
 #include "host/base/text/sense.hpp"
 #include "host/base/utc.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/experiment/tape_dialogue.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/path_progress.hpp"

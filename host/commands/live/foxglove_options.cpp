@@ -1,6 +1,4 @@
 #include "host/commands/live/foxglove_options.hpp"
-#include "host/live/foxglove/origin.hpp"
-#include "host/live/foxglove/server.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +11,7 @@
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/live/foxglove/origin.hpp"
+#include "host/live/foxglove/server.hpp"
 
 namespace astro::commands {
 namespace {

@@ -1,5 +1,4 @@
 #include "host/commands/live/robot_driver.hpp"
-#include "host/live/driver/robot_parameter_table.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
+#include "host/live/driver/robot_parameter_table.hpp"
 
 namespace astro::commands {
 namespace {

@@ -5,7 +5,7 @@
 namespace astro::commands {
 
 /// teensy_loader_cli on the PATH, or the program that the environment variable ASTROLABE_LOADER names. Throws
-/// astro::Error with the remedy if there is none.
+/// astro::Error if there is none.
 std::filesystem::path find_loader();
 
 /// Runs the loader on `hex` until it ends; it waits for a Teensy in its boot loader. Throws astro::Error with

@@ -1,5 +1,4 @@
 #include "host/commands/shared/connection.hpp"
-#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 #include <set>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"

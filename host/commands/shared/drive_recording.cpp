@@ -1,5 +1,4 @@
 #include "host/commands/shared/drive_recording.hpp"
-#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/robot/client/handshake.hpp"

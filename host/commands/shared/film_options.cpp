@@ -1,13 +1,13 @@
 #include "host/commands/shared/film_options.hpp"
-#include "host/commands/base/advice.hpp"
-#include "host/film/track/figure_doubts.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "host/base/text/numbers.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/console/options.hpp"
+#include "host/film/track/figure_doubts.hpp"
 #include "host/truth/source/reading.hpp"
 
 namespace astro::commands {

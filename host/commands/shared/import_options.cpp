@@ -1,7 +1,4 @@
 #include "host/commands/shared/import_options.hpp"
-#include "host/import/drives/robot_geometry.hpp"
-#include "host/import/wheels/unclear_choice.hpp"
-#include "host/truth/files/body_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +15,9 @@
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
+#include "host/import/drives/robot_geometry.hpp"
+#include "host/import/wheels/unclear_choice.hpp"
+#include "host/truth/files/body_choice.hpp"
 
 namespace astro::commands {
 namespace {

@@ -1,9 +1,9 @@
 #include "host/commands/shared/parameter_load.hpp"
-#include "host/commands/base/advice.hpp"
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/shared/params_view.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"

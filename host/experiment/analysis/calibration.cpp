@@ -1,11 +1,11 @@
 #include "host/experiment/analysis/calibration.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/error.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/files/method_names.hpp"
 
 namespace astro::experiment {

@@ -1,5 +1,4 @@
 #include "host/experiment/analysis/calibration_file.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/text/plain_text.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/toml_file.hpp"
 

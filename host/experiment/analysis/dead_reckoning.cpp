@@ -1,9 +1,9 @@
 #include "host/experiment/analysis/dead_reckoning.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/number_named.hpp"

@@ -1,5 +1,4 @@
 #include "host/experiment/analysis/export.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "common/params/table.hpp"
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/number_named.hpp"
 #include "host/experiment/files/toml_file.hpp"

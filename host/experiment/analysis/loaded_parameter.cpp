@@ -1,11 +1,11 @@
 #include "host/experiment/analysis/loaded_parameter.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/files/number_named.hpp"
 #include "host/recording/run_metadata.hpp"
 

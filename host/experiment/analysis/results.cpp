@@ -1,5 +1,4 @@
 #include "host/experiment/analysis/results.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/experiment_folder.hpp"

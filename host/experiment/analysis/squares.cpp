@@ -1,5 +1,4 @@
 #include "host/experiment/analysis/squares.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/base/pose2.hpp"
 #include "host/base/text/sense.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/files/curvature_named.hpp"

@@ -1,5 +1,4 @@
 #include "host/experiment/analysis/trajectories.hpp"
-#include "host/experiment/analysis/analysis_problem.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 
 #include "common/fixed/wrapping.hpp"
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/files/same_number.hpp"
 

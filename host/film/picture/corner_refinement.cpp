@@ -1,11 +1,12 @@
 #include "host/film/picture/corner_refinement.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include "host/base/order_statistics.hpp"
 
 namespace astro::film {
 namespace {

@@ -1,5 +1,4 @@
 #include "host/film/picture/film_info.hpp"
-#include "host/film/picture/how_to_film.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "host/base/files.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/film/picture/film_program.hpp"
+#include "host/film/picture/how_to_film.hpp"
 
 namespace astro::film {
 namespace {

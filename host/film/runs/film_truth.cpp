@@ -1,5 +1,4 @@
 #include "host/film/runs/film_truth.hpp"
-#include "host/film/picture/how_to_film.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <numeric>
 
 #include "host/base/error.hpp"
+#include "host/film/picture/how_to_film.hpp"
 #include "host/film/runs/readout_search.hpp"
 
 namespace astro::film {

@@ -1,9 +1,10 @@
 #include "host/film/track/camera_motion.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "host/base/order_statistics.hpp"
 
 namespace astro::film {
 namespace {

@@ -1,6 +1,4 @@
 #include "host/film/track/film_checks.hpp"
-#include "host/base/order_statistics.hpp"
-#include "host/film/picture/how_to_film.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +8,8 @@
 #include <numbers>
 
 #include "host/base/error.hpp"
+#include "host/base/order_statistics.hpp"
+#include "host/film/picture/how_to_film.hpp"
 #include "host/film/track/figure_doubts.hpp"
 #include "host/film/track/film_diagnosis.hpp"
 

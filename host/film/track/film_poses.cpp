@@ -1,10 +1,10 @@
 #include "host/film/track/film_poses.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "host/base/order_statistics.hpp"
 #include "host/film/camera/frame_pose.hpp"
 
 namespace astro::film {

@@ -1,9 +1,9 @@
 #include "host/film/track/floor_survey.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <map>
 
+#include "host/base/order_statistics.hpp"
 #include "host/film/picture/corner_refinement.hpp"
 #include "host/film/picture/detector.hpp"
 #include "host/film/picture/frame_stream.hpp"

@@ -1,10 +1,10 @@
 #include "host/film/track/scene_search.hpp"
-#include "host/film/picture/how_to_film.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/film/picture/how_to_film.hpp"
 #include "host/film/track/film_poses.hpp"
 
 namespace astro::film {

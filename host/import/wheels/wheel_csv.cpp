@@ -1,5 +1,4 @@
 #include "host/import/wheels/wheel_csv.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/base/order_statistics.hpp"
 #include "host/base/text/trimmed.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/time_text.hpp"

@@ -1,11 +1,11 @@
 #include "host/motor/model/motor_model.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/base/order_statistics.hpp"
 
 namespace astro::motor {
 namespace {

@@ -1,5 +1,4 @@
 #include "host/simulation/server/truth_server.hpp"
-#include "host/simulation/server/pty.hpp"
 
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "host/base/system_error.hpp"
+#include "host/simulation/server/pty.hpp"
 
 namespace astro::simulation {
 namespace {

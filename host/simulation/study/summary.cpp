@@ -1,10 +1,10 @@
 #include "host/simulation/study/summary.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
+#include "host/base/order_statistics.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
 namespace astro::simulation::study {

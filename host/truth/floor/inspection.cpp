@@ -1,11 +1,11 @@
 #include "host/truth/floor/inspection.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "host/base/order_statistics.hpp"
 #include "host/truth/files/rotations.hpp"
 #include "host/truth/files/tracker_file.hpp"
 

@@ -1,9 +1,10 @@
 #include "host/truth/live/stamps.hpp"
-#include "host/base/order_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "host/base/order_statistics.hpp"
 
 namespace astro::truth {
 namespace {
