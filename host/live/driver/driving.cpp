@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/arming.hpp"
 #include "host/robot/motion/other_program.hpp"
 
 namespace astro::live {
 
-using protocol::ErrorCode;
 using std::chrono::milliseconds;
 
 namespace {
@@ -64,17 +65,8 @@ bool comes_to_rest(RobotSession& session) {
 void require_free(RobotSession& session, const protocol::Status& status) {
   const bool drives = protocol::gives_power(status.mode) && status.mode != protocol::Mode::stopping;
   if (!drives && status.queued_segments == 0) return;  // what is left of a paused path waits in the queue
-  const robot::PortUsers users = robot::port_users(session.client());
-  if (users.driver_pid == 0) throw Error("the robot drives, or waits on a path, for another program");
-}
-
-std::string why_not(RobotSession& session, const robot::RobotRefused& refused) {
-  const robot::PortUsers users = robot::port_users(session.client());
-  if (refused.code() == ErrorCode::busy && users.driver_pid != 0)
-    return "the robot drives for " + robot::another_program(users.driver_pid, users.driver_command);
-  if (refused.code() == ErrorCode::not_armed && users.stopper_pid != 0)
-    return "the robot was stopped by " + robot::another_program(users.stopper_pid, users.stopper_command);
-  return refused.what();
+  if (robot::port_users(session.client()).driver_pid == 0)
+    throw Error("the robot drives, or waits on a path, for another program");
 }
 
 }  // namespace
@@ -115,26 +107,21 @@ std::string Driving::arm(RobotSession& session) {
   // The robot needs this request, too: it accepts an Arm only from a host that can know of every stop.
   const protocol::Status status = session.ask(protocol::GetStatus{});
   if (!armed_) require_free(session, status);
-  const std::uint32_t latched = session.ask(protocol::GetFaults{}).latched;
-  if ((latched & ~robot::kFaultsLeftBehind) != 0)
-    throw robot::DriveFault(
-        "the robot is not armed because of a latched fault: " + robot::fault_names(latched),
-        robot::first_fault(latched & ~robot::kFaultsLeftBehind));
-  if (latched != 0) {
-    if (!comes_to_rest(session)) throw Error("the robot is not armed yet: it still ramps to rest");
-    session.ask(protocol::ClearFaults{});
-  }
+  const std::optional<Remark> cleared = robot::clear_faults_left_behind(
+      session.client(),
+      [&] {
+        if (!comes_to_rest(session)) throw Error("the robot is not armed yet: it still ramps to rest");
+      },
+      RobotSession::kPatience);
   try {
     session.ask(protocol::Arm{});
   } catch (const robot::RobotRefused& refused) {
-    throw Error(why_not(session, refused));
+    throw Error(robot::why_refused(session.client(), refused));
   }
   command_.clear();
   armed_ = true;
   halt_ = Halt::none;
-  return latched == 0
-             ? "armed"
-             : "armed; cleared " + robot::fault_names(latched) + ", which an earlier drive left behind";
+  return cleared ? "armed; " + cleared->sentence : "armed";
 }
 
 void Driving::disarm(RobotSession& session) {
@@ -189,7 +176,7 @@ void Driving::send_rest(RobotSession& session, microseconds now) {
     session.ask(protocol::Rest{});
   } catch (const robot::RobotRefused& refused) {  // another program has it, or it is at rest with a fault
     release();
-    ignore(why_not(session, refused), now);
+    ignore(robot::why_refused(session.client(), refused).sentence, now);
   }
 }
 
@@ -203,7 +190,7 @@ void Driving::send(RobotSession& session, microseconds now) {
     counts_.reduced = beyond_limits(session, command_.velocity());
   } catch (const robot::RobotRefused& refused) {
     release();
-    ignore(why_not(session, refused), now);
+    ignore(robot::why_refused(session.client(), refused).sentence, now);
   }
 }
 

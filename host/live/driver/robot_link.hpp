@@ -18,6 +18,8 @@ namespace astro::live {
 /// that nobody waits longer for the driver. The parameter table is read later, so that the robot can be stopped at once.
 class RobotSession {
  public:
+  static constexpr robot::RetryPolicy kPatience{std::chrono::milliseconds(60), 8};
+
   /// Shakes hands and asks for telemetry. Throws astro::Error with the reason if no robot answers, or another one than `known`.
   RobotSession(std::unique_ptr<robot::Transport> transport, const std::optional<protocol::HelloReply>& known,
                std::uint16_t telemetry_period_ms);
@@ -53,8 +55,6 @@ class RobotSession {
   microseconds telemetry_age() const { return client_->now() - telemetry_at_; }
 
  private:
-  static constexpr robot::RetryPolicy kPatience{std::chrono::milliseconds(60), 8};
-
   static std::unique_ptr<robot::Client> connected(std::unique_ptr<robot::Transport> transport,
                                                   const std::optional<protocol::HelloReply>& known);
   void ask_for_telemetry();

@@ -32,21 +32,7 @@ std::int32_t micro(double value, const char* what) {
   return static_cast<std::int32_t>(steps);
 }
 
-/// Appends the process id and the command line of another program to an error's values, if it is known.
-std::vector<std::string> with_program(std::vector<std::string> values, std::uint32_t pid,
-                                      const CommandLine& command) {
-  if (pid != 0) values.insert(values.end(), {std::to_string(pid), std::string(command.view())});
-  return values;
-}
-
 }  // namespace
-
-Fault first_fault(std::uint32_t mask) {
-  for (unsigned i = 1; i < 32; ++i) {
-    if (((mask >> i) & 1U) != 0) return static_cast<Fault>(i);
-  }
-  return Fault::none;
-}
 
 DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), hooks_(std::move(hooks)) {
   on_done_ = client_.on<SegmentDone>([this](const SegmentDone& done) {
@@ -107,10 +93,9 @@ void DriveSession::rest_and_disarm() {
 Status DriveSession::status_unless_stopped() {
   const Status status = client_.request(GetStatus{});
   if (!client_.learns_of_stop(status)) return status;
-  const PortUsers users = port_users(client_);
-  throw Error(another_program(users.stopper_pid, users.stopper_command) +
-                  " has stopped the robot since this one drove it last: start again once it may drive",
-              DriveProblem::stopped_by_another, with_program({}, users.stopper_pid, users.stopper_command));
+  Remark stopped = stopped_by_another(port_users(client_));
+  stopped.sentence += " since this one drove it last: start again once it may drive";
+  throw Error(stopped);
 }
 
 /// A program that was killed leaves an armed robot behind, until the robot's time-out ends that.
@@ -119,27 +104,14 @@ void DriveSession::wait_until_free() {
   while (true) {
     const Mode mode = status_unless_stopped().mode;
     if (mode == Mode::disarmed || mode == Mode::fault) return;
-    if (client_.now() >= deadline && mode == Mode::idle) fail_armed();
-    if (client_.now() >= deadline) fail_busy();
+    if (client_.now() >= deadline) fail_busy(mode);
     client_.pump(kRestPoll);
   }
 }
 
 void DriveSession::arm() {
-  const FaultReport report = client_.request(GetFaults{});
-  if ((report.latched & ~kFaultsLeftBehind) != 0) {
-    const std::string faults = fault_names(report.latched);
-    throw DriveFault("the robot is not armed because of a latched fault: " + faults,
-                     first_fault(report.latched & ~kFaultsLeftBehind), {faults});
-  }
-  if (report.latched != 0) {
-    wait_until_power_off();  // if its host died a moment ago, it is still ramping down
-    client_.request(ClearFaults{});
-    const std::string faults = fault_names(report.latched);
-    hooks_.notice({"cleared " + faults + ", which an earlier drive left behind",
-                   DriveProblem::faults_left_behind,
-                   {faults}});
-  }
+  if (const auto cleared = clear_faults_left_behind(client_, [this] { wait_until_power_off(); }))
+    hooks_.notice(*cleared);
   fault_.reset();
   status_unless_stopped();  // checked last, directly before Arm
   command(Arm{});
@@ -244,21 +216,16 @@ void DriveSession::explain(const RobotRefused& refused) {
     const bool paused = client_.request(GetStatus{}).mode == Mode::paused;
     fail_ended(paused ? "paused" : "stopped");
   }
-  if (refused.code() == ErrorCode::busy && port_users(client_).driver_pid != 0) fail_busy();
+  if (const Remark why = why_refused(client_, refused); why.kind == DriveProblem::driven_by_another)
+    throw Error(why);
 }
 
 /// Without a command time-out a robot whose driver was killed stays armed.
-void DriveSession::fail_armed() {
+void DriveSession::fail_busy(Mode mode) {
   const PortUsers users = port_users(client_);
-  if (users.driver_pid != 0) fail_busy();
+  if (mode != Mode::idle || users.driver_pid != 0) throw Error(driven_by_another(users));
   throw Error("the robot stands and is armed, for another program or for one that has gone",
               DriveProblem::armed_for_another);
-}
-
-void DriveSession::fail_busy() {
-  const PortUsers users = port_users(client_);
-  throw Error("the robot is driving for " + another_program(users.driver_pid, users.driver_command),
-              DriveProblem::driven_by_another, with_program({}, users.driver_pid, users.driver_command));
 }
 
 /// The reason may arrive after the end: after a fault the robot reports the aborted segment first.
@@ -277,7 +244,8 @@ void DriveSession::fail_ended(const std::string& done_to_robot, std::uint16_t ab
 
 void DriveSession::fail(Fault fault) {
   const std::string named(name(fault));
-  if (fault != Fault::emergency_stop) throw DriveFault("the robot stopped by itself: " + named, fault);
+  if (fault != Fault::emergency_stop)
+    throw DriveFault("the robot stopped by itself: " + named, fault, {named});
   const PortUsers users = port_users(client_);
   throw DriveFault(another_program(users.stopper_pid, users.stopper_command) + " stopped the robot: " + named,
                    fault, with_program({named}, users.stopper_pid, users.stopper_command));

@@ -7,47 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "common/safety/fault.hpp"
 #include "host/base/error.hpp"
 #include "host/base/interrupted.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/client/refusal.hpp"
-#include "host/robot/sharing/relay_messages.hpp"
+#include "host/robot/motion/arming.hpp"
 
 namespace astro::robot {
-
-/// Why a program may not drive a robot, why its drive ended, or why it gets a notice. Values: for segment_aborted the
-/// segment, for ended_early what was done to the robot ("stopped"), for faults_left_behind the faults that were cleared;
-/// then the process id and the command line of the other program, if they are known.
-enum class DriveProblem {
-  stopped_by_another,
-  armed_for_another,
-  driven_by_another,
-  segment_aborted,
-  ended_early,
-  stop_unconfirmed,
-  faults_left_behind
-};
-
-/// Faults that stay latched if a program ends or loses its link while the robot drives. The next program that arms the robot
-/// may clear them; any other fault must be cleared by a person.
-inline constexpr std::uint32_t kFaultsLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
-
-/// The first fault of a mask of latched ones; none if it is 0.
-Fault first_fault(std::uint32_t mask);
-
-/// The robot stopped because of a fault, or cannot be armed because of a latched one.
-class DriveFault : public Error {
- public:
-  DriveFault(const std::string& sentence, Fault fault)
-      : DriveFault(sentence, fault, {std::string(name(fault))}) {}
-  DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values)
-      : Error(sentence, RobotProblem::faulted, std::move(values)), fault_(fault) {}
-  Fault fault() const { return fault_; }
-
- private:
-  Fault fault_;
-};
 
 /// The robot did not confirm that it is at rest and disarmed after a stop request: it may still move. Its kind is that of
 /// the error that occurred, or DriveProblem::stop_unconfirmed if that error has none.
@@ -76,8 +42,7 @@ struct DriveHooks {
 ///         stopped or disarmed the robot, which it names where it knows it; all that Client::request throws.
 class DriveSession {
  public:
-  /// Arms the robot. First clears the latched faults command_timeout and link_lost (kFaultsLeftBehind) and reports that in a
-  /// notice; throws DriveFault for any other latched fault. Throws Error, and changes nothing on the robot, if the robot
+  /// Arms the robot. First clears what an earlier drive left behind (clear_faults_left_behind) and reports that in a notice. Throws Error, and changes nothing on the robot, if the robot
   /// stays armed for another program, or if another program has stopped it since this one drove.
   explicit DriveSession(Client& client, DriveHooks hooks = {});
   DriveSession(const DriveSession&) = delete;
@@ -121,8 +86,7 @@ class DriveSession {
   void explain(const RobotRefused& refused);
   [[noreturn]] void fail(Fault fault);
   [[noreturn]] void fail_ended(const std::string& done_to_robot, std::uint16_t aborted = 0);
-  [[noreturn]] void fail_busy();
-  [[noreturn]] void fail_armed();
+  [[noreturn]] void fail_busy(protocol::Mode mode);
 
   Client& client_;
   DriveHooks hooks_;

@@ -1,5 +1,6 @@
 #include "host/robot/motion/other_program.hpp"
 
+#include "host/robot/motion/arming.hpp"
 #include "host/robot/sharing/port_socket.hpp"
 
 namespace astro::robot {
@@ -14,6 +15,30 @@ PortUsers port_users(Client& client) {
 
 std::string another_program(std::uint32_t pid, const CommandLine& command) {
   return pid == 0 ? "another program" : "another program (" + in_words(pid, command.view()) + ")";
+}
+
+std::vector<std::string> with_program(std::vector<std::string> values, std::uint32_t pid,
+                                      const CommandLine& command) {
+  if (pid != 0) values.insert(values.end(), {std::to_string(pid), std::string(command.view())});
+  return values;
+}
+
+Remark driven_by_another(const PortUsers& users) {
+  return {"the robot is driving for " + another_program(users.driver_pid, users.driver_command),
+          DriveProblem::driven_by_another, with_program({}, users.driver_pid, users.driver_command)};
+}
+
+Remark stopped_by_another(const PortUsers& users) {
+  return {another_program(users.stopper_pid, users.stopper_command) + " has stopped the robot",
+          DriveProblem::stopped_by_another, with_program({}, users.stopper_pid, users.stopper_command)};
+}
+
+Remark why_refused(Client& client, const RobotRefused& refused) {
+  if (refused.code() == protocol::ErrorCode::busy)
+    if (const PortUsers users = port_users(client); users.driver_pid != 0) return driven_by_another(users);
+  if (refused.code() == protocol::ErrorCode::not_armed)
+    if (const PortUsers users = port_users(client); users.stopper_pid != 0) return stopped_by_another(users);
+  return refused.remark();
 }
 
 bool stop_left_drive(Client& client, microseconds command_timeout) {

@@ -1,0 +1,28 @@
+#include "host/robot/motion/arming.hpp"
+
+namespace astro::robot {
+
+Fault first_fault(std::uint32_t mask) {
+  for (unsigned i = 1; i < 32; ++i) {
+    if (((mask >> i) & 1U) != 0) return static_cast<Fault>(i);
+  }
+  return Fault::none;
+}
+
+std::optional<Remark> clear_faults_left_behind(Client& client, const std::function<void()>& comes_to_rest,
+                                               RetryPolicy patience) {
+  constexpr std::uint32_t kLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
+  const std::uint32_t latched = client.request(protocol::GetFaults{}, patience).latched;
+  if (latched == 0) return std::nullopt;
+  const std::string faults = fault_names(latched);
+  if ((latched & ~kLeftBehind) != 0)
+    throw DriveFault("the robot is not armed because of a latched fault: " + faults,
+                     first_fault(latched & ~kLeftBehind), {faults});
+  comes_to_rest();
+  client.request(protocol::ClearFaults{}, patience);
+  return Remark{"cleared " + faults + ", which an earlier drive left behind",
+                DriveProblem::faults_left_behind,
+                {faults}};
+}
+
+}  // namespace astro::robot

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/safety/fault.hpp"
+#include "host/base/error.hpp"
+#include "host/robot/client/client.hpp"
+#include "host/robot/client/refusal.hpp"
+
+/// What every program that arms a robot has to keep, beside the rules of the robot itself.
+namespace astro::robot {
+
+/// Why a program may not drive a robot, why its drive ended, or why it gets a notice. Values: for segment_aborted the
+/// segment, for ended_early what was done to the robot ("stopped"), for faults_left_behind the faults that were cleared;
+/// then the process id and the command line of the other program, if they are known.
+enum class DriveProblem {
+  stopped_by_another,
+  armed_for_another,
+  driven_by_another,
+  segment_aborted,
+  ended_early,
+  stop_unconfirmed,
+  faults_left_behind
+};
+
+/// The robot stopped because of a fault, or cannot be armed because of a latched one.
+class DriveFault : public Error {
+ public:
+  DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values)
+      : Error(sentence, RobotProblem::faulted, std::move(values)), fault_(fault) {}
+  Fault fault() const { return fault_; }
+
+ private:
+  Fault fault_;
+};
+
+/// The first fault of a mask of latched ones; none if it is 0.
+Fault first_fault(std::uint32_t mask);
+
+/// Clears the faults that stay latched if a program ends or loses its link while the robot drives: command_timeout and
+/// link_lost. A person has to clear any other. `comes_to_rest` waits until the robot no longer powers its motors, because it
+/// still ramps down if its host died a moment ago; it is called only if there is something to clear.
+///
+/// Returns what was cleared, as a notice. Throws DriveFault for any other latched fault, and then clears nothing; all that
+/// `comes_to_rest` and Client::request throw.
+std::optional<Remark> clear_faults_left_behind(Client& client, const std::function<void()>& comes_to_rest,
+                                               RetryPolicy patience = {});
+
+}  // namespace astro::robot
