@@ -86,7 +86,7 @@ set(ASTRO_ON_ROBOT_FORBIDDEN
 set(ASTRO_OUTSIDE
   "apriltag/                : host/film/picture host/film/paper"
   "CLI/                     : host/console"
-  "Eigen/                   : host/calibration host/motor/model host/film host/simulation/study host/truth/floor host/wall"
+  "Eigen/                   : host/base host/calibration host/motor/model host/film host/simulation/study host/truth/floor host/wall"
   "boost/                   : host/live/foxglove host/robot/port host/robot/sharing"
   "cairo/                   : host/film/paper host/film/runs"
   "fastdds/ fastrtps/       : host/live/dds"

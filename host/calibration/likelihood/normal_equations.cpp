@@ -1,27 +1,12 @@
 #include "host/calibration/likelihood/normal_equations.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
 namespace astro::calibration {
 namespace {
 
-// Whatever is eliminated has four unknowns: a run's own, those of its session, the factors. So one size of decomposition does.
-static_assert(kOwn == kFactors && kOfSession == kFactors);
-using Block = FactorMatrix;
-using BlockVector = FactorVector;
-using Mixed = Eigen::Matrix<double, kShared, kOwn>;
-
-struct Solved {
-  Block inverse;
-  double log_determinant;
-};
-
-Solved solved(const Block& information) {
-  const Eigen::LDLT<Block> ldlt(information);
-  return {ldlt.solve(Block::Identity()), ldlt.vectorD().array().abs().log().sum()};
-}
+using Run = Elimination<kShared, kOwn>;
 
 // Inverse squares of the largest plausible values: e 0.1, lever arm 1 m, yaw one turn, skew 10 %, offset 10 s.
 constexpr double kEPrior = 100, kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 100, kOffsetPrior = 0.01;
@@ -29,10 +14,12 @@ constexpr double kEPrior = 100, kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 
 /// Information of one run in its blocks, without the fixed unknowns and with the weak priors.
 struct Parts {
   SharedInformation shared;
-  Mixed mixed;
-  Block own;
+  Run::Mixed mixed;
+  Eigen::Matrix<double, kOwn, kOwn> own;
   SharedVector shared_gradient;
-  BlockVector own_gradient;
+  Run::OwnVector own_gradient;
+
+  Run run() const { return {own, mixed, own_gradient}; }
 };
 
 Parts parts_of(const InnovationSums& sums, const FixedParameters& fixed, double damping) {
@@ -60,22 +47,20 @@ Parts parts_of(const InnovationSums& sums, const FixedParameters& fixed, double 
           a.block<kOwn, kOwn>(kShared, kShared), g.head<kShared>(), g.segment<kOwn>(kShared)};
 }
 
-Reduced reduced(const Parts& parts, int session) {
-  const Mixed weighted = parts.mixed * solved(parts.own).inverse;
-  return {parts.shared - weighted * parts.mixed.transpose(),
-          parts.shared_gradient - weighted * parts.own_gradient, session};
+Reduced reduced(const Parts& parts, const Run& run, int session) {
+  return {parts.shared - run.lost_information(), parts.shared_gradient - run.lost_gradient(), session};
 }
 
 }  // namespace
 
 Reduced reduced(const InnovationSums& sums, const FixedParameters& fixed, double damping) {
-  return reduced(parts_of(sums, fixed, damping), sums.session);
+  const Parts parts = parts_of(sums, fixed, damping);
+  return reduced(parts, parts.run(), sums.session);
 }
 
 std::vector<Reduced> reduced(const InnovationSums& run, std::span<const InnovationSums> stretches,
                              const FixedParameters& fixed) {
-  const Parts whole = parts_of(run, fixed, 0);
-  const Mixed weighted = whole.mixed * solved(whole.own).inverse;
+  const Run::Mixed weighted = parts_of(run, fixed, 0).run().weighted();
   std::vector<Reduced> out;
   for (const InnovationSums& stretch : stretches) {
     const Parts part = parts_of(stretch, fixed, 0);
@@ -95,91 +80,81 @@ void Pool::add(const Reduced& run, double sign) {
   session.gradient += sign * run.gradient;
 }
 
-Pool::Settled Pool::settled(const Reduced& session) const {
-  Block own = session.information.bottomRightCorner<kOfSession, kOfSession>();
-  const auto add_prior = [&](int unknown, double prior) {
-    own(unknown - kFactors, unknown - kFactors) += prior;
-  };
+Pool::Session Pool::eliminated(const Reduced& session) const {
+  SharedInformation information = session.information;
+  const auto add_prior = [&](int unknown, double prior) { information(unknown, unknown) += prior; };
   add_prior(kLeverX, kLeverPrior);
   add_prior(kLeverY, kLeverPrior);
   add_prior(kLeverYaw, fixed_.lever_yaw ? 1 : kYawPrior);
   add_prior(kSkew, fixed_.clock ? 1 : kSkewPrior);
-  const Solved by_own = solved(own);
-  const Block mixed = session.information.topRightCorner<kFactors, kOfSession>();
-  Settled out;
-  out.own_covariance = by_own.inverse;
-  out.log_determinant = by_own.log_determinant;
-  out.weighted = mixed * by_own.inverse;
-  out.information =
-      session.information.topLeftCorner<kFactors, kFactors>() - out.weighted * mixed.transpose();
-  out.own_gradient = session.gradient.tail<kOfSession>();
-  out.gradient = session.gradient.head<kFactors>() - out.weighted * out.own_gradient;
-  return out;
+  return {information.bottomRightCorner<kOfSession, kOfSession>(),
+          information.topRightCorner<kFactors, kOfSession>(), session.gradient.tail<kOfSession>()};
 }
 
 FactorMatrix Pool::information() const {
-  Block sum = Block::Zero();
-  for (const Reduced& session : sessions_) sum += settled(session).information;
+  FactorMatrix sum = FactorMatrix::Zero();
+  for (const Reduced& session : sessions_)
+    sum += session.information.topLeftCorner<kFactors, kFactors>() - eliminated(session).lost_information();
   if (fixed_.factors) sum.diagonal().setOnes();
   sum(kE, kE) += fixed_.e ? 1 : kEPrior;
   return sum;
 }
 
 FactorMatrix Pool::factor_covariance() const {
-  FactorMatrix covariance = solved(information()).inverse;
+  FactorMatrix covariance = Inverted<kFactors>(information()).inverse;
   if (fixed_.e) covariance(kE, kE) = 0;
   return covariance;
 }
 
 FactorVector Pool::factor_step() const {
-  BlockVector gradient = BlockVector::Zero();
-  for (const Reduced& session : sessions_) gradient += settled(session).gradient;
+  FactorVector gradient = FactorVector::Zero();
+  for (const Reduced& session : sessions_)
+    gradient += session.gradient.head<kFactors>() - eliminated(session).lost_gradient();
   if (!fixed_.e && !fixed_.factors) gradient[kE] -= kEPrior * e_;
-  return solved(information()).inverse * gradient;
+  return Inverted<kFactors>(information()).inverse * gradient;
 }
 
 SharedInformation Pool::covariance(int session) const {
-  const Settled of_session = settled(sessions_.at(static_cast<std::size_t>(session)));
+  const Session of_session = eliminated(sessions_.at(static_cast<std::size_t>(session)));
+  const Session::Mixed& weighted = of_session.weighted();
   const FactorMatrix factors = factor_covariance();
   SharedInformation out;
   out.topLeftCorner<kFactors, kFactors>() = factors;
-  out.topRightCorner<kFactors, kOfSession>() = -factors * of_session.weighted;
+  out.topRightCorner<kFactors, kOfSession>() = -factors * weighted;
   out.bottomLeftCorner<kOfSession, kFactors>() = out.topRightCorner<kFactors, kOfSession>().transpose();
   out.bottomRightCorner<kOfSession, kOfSession>() =
-      of_session.own_covariance + of_session.weighted.transpose() * factors * of_session.weighted;
+      of_session.own().inverse + weighted.transpose() * factors * weighted;
   return out;
 }
 
 SharedVector Pool::step(int session) const {
-  const Settled of_session = settled(sessions_.at(static_cast<std::size_t>(session)));
   SharedVector out;
   out.head<kFactors>() = factor_step();
-  out.tail<kOfSession>() = of_session.own_covariance * of_session.own_gradient -
-                           of_session.weighted.transpose() * out.head<kFactors>();
+  out.tail<kOfSession>() =
+      eliminated(sessions_.at(static_cast<std::size_t>(session))).step(out.head<kFactors>());
   return out;
 }
 
 double Pool::log_determinant() const {
-  double sum = solved(information()).log_determinant;
-  for (const Reduced& session : sessions_) sum += settled(session).log_determinant;
+  double sum = Inverted<kFactors>(information()).log_determinant;
+  for (const Reduced& session : sessions_) sum += eliminated(session).own().log_determinant;
   return sum;
 }
 
 std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, const FixedParameters& fixed,
                                         double damping, double e) {
-  std::vector<Parts> parts;
+  std::vector<Run> runs;
   Pool pool(fixed, e);
-  for (const InnovationSums& run : sums) {
-    parts.push_back(parts_of(run, fixed, damping));
-    pool.add(reduced(parts.back(), run.session));
+  for (const InnovationSums& one : sums) {
+    const Parts parts = parts_of(one, fixed, damping);
+    runs.push_back(parts.run());
+    pool.add(reduced(parts, runs.back(), one.session));
   }
   std::vector<Unknowns> steps;
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    const SharedVector shared = pool.step(sums[i].session);
     Unknowns step = Unknowns::Zero();
-    step.head<kShared>() = shared;
-    step.segment<kOwn>(kShared) =
-        solved(parts[i].own).inverse * (parts[i].own_gradient - parts[i].mixed.transpose() * shared);
+    step.head<kShared>() = pool.step(sums[i].session);
+    step.segment<kOwn>(kShared) = runs[i].step(step.head<kShared>());
     steps.push_back(step);
   }
   return steps;
@@ -195,17 +170,16 @@ double prior_cost(double e) { return kEPrior * e * e; }
 
 double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
   double sum = pool_of(sums, fixed).log_determinant();
-  for (const InnovationSums& run : sums) sum += solved(parts_of(run, fixed, 0).own).log_determinant;
+  for (const InnovationSums& run : sums) sum += parts_of(run, fixed, 0).run().own().log_determinant;
   return sum;
 }
 
 double clock_offset_variance(const InnovationSums& sums, const SharedInformation& covariance,
                              const FixedParameters& fixed) {
-  const Parts parts = parts_of(sums, fixed, 0);
-  const Block own = solved(parts.own).inverse;
-  const Eigen::Matrix<double, kOwn, kShared> by_shared = own * parts.mixed.transpose();
+  const Run run = parts_of(sums, fixed, 0).run();
   constexpr int kClock = kClockOffset - kShared;
-  return own(kClock, kClock) + by_shared.row(kClock).dot(covariance * by_shared.row(kClock).transpose());
+  const SharedVector by_shared = run.weighted().col(kClock);
+  return run.own().inverse(kClock, kClock) + by_shared.dot(covariance * by_shared);
 }
 
 }  // namespace astro::calibration

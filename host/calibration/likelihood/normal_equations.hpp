@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/base/elimination.hpp"
 #include "host/calibration/likelihood/innovation.hpp"
 
 /// The Gauss-Newton step of several runs that share some unknowns and have others of their own.
@@ -57,15 +58,10 @@ class Pool {
   double log_determinant() const;
 
  private:
-  /// A session with its own unknowns eliminated.
-  struct Settled {
-    FactorMatrix information, weighted, own_covariance;  // weighted: mixed information times own_covariance
-    FactorVector gradient, own_gradient;
-    double log_determinant = 0;
-  };
+  using Session = Elimination<kFactors, kOfSession>;
 
   void add(const Reduced& run, double sign);
-  Settled settled(const Reduced& session) const;
+  Session eliminated(const Reduced& session) const;  // with the priors of its unknowns
   FactorMatrix information() const;
 
   FixedParameters fixed_;

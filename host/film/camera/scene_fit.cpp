@@ -3,24 +3,21 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+
+#include "host/base/elimination.hpp"
+#include "host/film/camera/frame_pose.hpp"
 
 namespace astro::film {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-using Residual = Eigen::Matrix<double, 8, 1>;
-using PoseJacobian = Eigen::Matrix<double, 8, 3>;
+using Picture = Elimination<Eigen::Dynamic, 3>;  // its pose is eliminated
 
 constexpr int kMostIterations = 100;
 constexpr double kHuber = 3;
 constexpr double kSettled = 1e-4, kSettledPart = 1e-7;  // of the cost, which is a chi-square
-
-Residual difference(const TagCorners& model, const TagCorners& seen) {
-  Residual r;
-  for (std::size_t i = 0; i < 4; ++i) r.segment<2>(static_cast<Index>(2 * i)) = model[i] - seen[i];
-  return r;
-}
 
 struct Problem {
   const std::vector<TagCorners>& floor;
@@ -33,23 +30,25 @@ struct State {
   std::vector<RobotSighting> robot;
 };
 
-Residual floor_residual(const Scene& scene, const Problem& problem, std::size_t tag) {
-  return difference(floor_corners(scene, tag), problem.floor[tag]) / problem.errors.floor_px;
+CornerResidual floor_residual(const Scene& scene, const Problem& problem, std::size_t tag) {
+  return residual_px(floor_corners(scene, tag), problem.floor[tag]) / problem.errors.floor_px;
 }
 
-Residual robot_residual(const Scene& scene, const Problem& problem, const RobotSighting& one,
-                        const Pose2& pose) {
-  return difference(robot_corners(scene, pose, one.velocity, one.corners), one.corners) /
-         problem.errors.robot_px;
+PoseMisfit misfit_of(const Scene& scene, const RobotSighting& one) {
+  return {scene, one.corners, one.velocity};
+}
+
+CornerResidual robot_residual(const Scene& scene, const Problem& problem, const RobotSighting& one) {
+  return misfit_of(scene, one)(one.pose) / problem.errors.robot_px;
 }
 
 /// Huber's weight of a picture, from the root mean square of its residuals.
-double weight_of(const Residual& r) {
+double weight_of(const CornerResidual& r) {
   const double rms = r.norm() / std::sqrt(8.0);
   return rms > kHuber ? kHuber / rms : 1;
 }
 
-double huber_cost(const Residual& r) {
+double huber_cost(const CornerResidual& r) {
   const double rms = r.norm() / std::sqrt(8.0);
   return rms > kHuber ? 8 * (2 * kHuber * rms - kHuber * kHuber) : r.squaredNorm();
 }
@@ -74,47 +73,37 @@ double cost_of(const State& state, const Problem& problem, const std::vector<Sce
   double cost = prior_residual(state.scene, problem, parameters).squaredNorm();
   for (std::size_t i = 0; i < state.scene.tags.size(); ++i)
     cost += floor_residual(state.scene, problem, i).squaredNorm();
-  for (const RobotSighting& one : state.robot)
-    cost += huber_cost(robot_residual(state.scene, problem, one, one.pose));
+  for (const RobotSighting& one : state.robot) cost += huber_cost(robot_residual(state.scene, problem, one));
   return cost;
-}
-
-Pose2 stepped(const Pose2& pose, const Eigen::Vector3d& step) {
-  return {pose.x_m + step[0], pose.y_m + step[1], pose.theta_rad + step[2]};
-}
-
-/// The Jacobian of a picture's residuals with respect to its pose.
-PoseJacobian by_pose_of(const Scene& scene, const Problem& problem, const RobotSighting& one) {
-  constexpr double kStep = 1e-6;  // m and rad
-  PoseJacobian jacobian;
-  for (Index i = 0; i < 3; ++i) {
-    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
-    jacobian.col(i) = (robot_residual(scene, problem, one, stepped(one.pose, step)) -
-                       robot_residual(scene, problem, one, stepped(one.pose, -step))) /
-                      (2 * kStep);
-  }
-  return jacobian;
 }
 
 /// Refits the poses to a scene. The poses of a joint step are right only to first order. Their second-order
 /// error, a common factor of all places, costs more than the step gains if the focal length is hardly
 /// observable.
-void settle_poses(State& state, const Problem& problem) {
+void settle_poses(State& state) {
   for (RobotSighting& one : state.robot) {
-    const PoseJacobian by_pose = by_pose_of(state.scene, problem, one);
-    const Residual r = robot_residual(state.scene, problem, one, one.pose);
-    one.pose = stepped(one.pose, -(by_pose.transpose() * by_pose).ldlt().solve(by_pose.transpose() * r));
+    const PoseMisfit misfit = misfit_of(state.scene, one);
+    const Eigen::Matrix<double, 8, 3> by_pose = misfit.jacobian(one.pose);
+    one.pose = stepped(one.pose,
+                       -(by_pose.transpose() * by_pose).ldlt().solve(by_pose.transpose() * misfit(one.pose)));
   }
 }
 
-/// Normal equations in which the pictures' blocks are kept separate.
+/// Normal equations in which the pictures' blocks are kept separate. The parameters that belong to one floor tag come last,
+/// and no picture of the robot depends on them.
 struct Equations {
   MatrixXd hessian;
   VectorXd gradient;
   struct Block {
     Eigen::Matrix3d hessian;
     Eigen::Vector3d gradient;
-    MatrixXd coupling;  // parameters by 3
+    Picture::Mixed coupling;
+
+    Picture damped(double lambda) const {
+      Eigen::Matrix3d own = hessian;
+      own.diagonal() *= 1 + lambda;
+      return {own, coupling, gradient};
+    }
   };
   std::vector<Block> blocks;
 };
@@ -172,14 +161,15 @@ void add_robot(Equations& to, const State& state, const Problem& problem,
   const auto columns = static_cast<Index>(std::count_if(
       parameters.begin(), parameters.end(), [](const SceneParameter& p) { return p.only_tag < 0; }));
   for (const RobotSighting& one : state.robot) {
-    const Residual r = robot_residual(state.scene, problem, one, one.pose);
-    const PoseJacobian by_pose = by_pose_of(state.scene, problem, one);
+    const CornerResidual r = robot_residual(state.scene, problem, one);
+    const Eigen::Matrix<double, 8, 3> by_pose =
+        misfit_of(state.scene, one).jacobian(one.pose) / problem.errors.robot_px;
     MatrixXd jacobian = MatrixXd::Zero(8, columns);
     for (Index i = 0; i < columns; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (!parameters[at].moves_robot) continue;
-      jacobian.col(i) = (robot_residual(neighbours[at].ahead, problem, one, one.pose) -
-                         robot_residual(neighbours[at].behind, problem, one, one.pose)) /
+      jacobian.col(i) = (robot_residual(neighbours[at].ahead, problem, one) -
+                         robot_residual(neighbours[at].behind, problem, one)) /
                         neighbours[at].twice_step;
     }
     const double weight = weight_of(r);
@@ -201,33 +191,38 @@ Equations equations_of(const State& state, const Problem& problem,
   return to;
 }
 
-/// The normal equations of the parameters alone (Schur complement), damped by `lambda` times the diagonal.
-std::pair<MatrixXd, VectorXd> reduced(const Equations& equations, double lambda) {
-  MatrixXd hessian = equations.hessian;
-  hessian.diagonal() *= 1 + lambda;
-  VectorXd gradient = equations.gradient;
-  for (const Equations::Block& block : equations.blocks) {
-    Eigen::Matrix3d own = block.hessian;
-    own.diagonal() *= 1 + lambda;
-    const Index n = block.coupling.rows();
-    const MatrixXd solved = own.ldlt().solve(block.coupling.transpose());  // 3 by n
-    hessian.topLeftCorner(n, n) -= block.coupling * solved;
-    gradient.head(n) -= solved.transpose() * block.gradient;
+/// The normal equations of the parameters alone.
+struct Reduced {
+  MatrixXd hessian;
+  VectorXd gradient;
+};
+
+Reduced reduced(const Equations& equations, std::span<const Picture> pictures, double lambda) {
+  Reduced out{equations.hessian, equations.gradient};
+  out.hessian.diagonal() *= 1 + lambda;
+  for (const Picture& picture : pictures) {
+    const Index n = picture.weighted().rows();
+    out.hessian.topLeftCorner(n, n) -= picture.lost_information();
+    out.gradient.head(n) -= picture.lost_gradient();
   }
-  return {std::move(hessian), std::move(gradient)};
+  return out;
 }
 
+std::vector<Picture> pictures_of(const Equations& equations, double lambda) {
+  std::vector<Picture> pictures;
+  for (const Equations::Block& block : equations.blocks) pictures.push_back(block.damped(lambda));
+  return pictures;
+}
+
+/// The state after a step that is damped by `lambda` times the diagonal.
 State after_step(const State& state, const Equations& equations, double lambda) {
-  const auto [hessian, gradient] = reduced(equations, lambda);
-  const VectorXd change = -hessian.ldlt().solve(gradient);
-  State next{moved(state.scene, change), state.robot};
-  for (std::size_t i = 0; i < next.robot.size(); ++i) {
-    const Equations::Block& block = equations.blocks[i];
-    Eigen::Matrix3d own = block.hessian;
-    own.diagonal() *= 1 + lambda;
-    const Eigen::Vector3d step =
-        -own.ldlt().solve(block.gradient + block.coupling.transpose() * change.head(block.coupling.rows()));
-    next.robot[i].pose = stepped(next.robot[i].pose, step);
+  const std::vector<Picture> pictures = pictures_of(equations, lambda);
+  const Reduced shared = reduced(equations, pictures, lambda);
+  const VectorXd step = shared.hessian.ldlt().solve(shared.gradient);
+  State next{moved(state.scene, -step), state.robot};
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    Pose2& pose = next.robot[i].pose;
+    pose = stepped(pose, -pictures[i].step(step.head(pictures[i].weighted().rows())));
   }
   return next;
 }
@@ -239,10 +234,8 @@ double rms_of(double squares, std::size_t tags) {
 void add_misfits(SceneFit& fit, const Problem& problem) {
   double floor = 0, robot = 0;
   for (std::size_t i = 0; i < fit.scene.tags.size(); ++i)
-    floor += difference(floor_corners(fit.scene, i), problem.floor[i]).squaredNorm();
-  for (const RobotSighting& one : fit.robot)
-    robot +=
-        difference(robot_corners(fit.scene, one.pose, one.velocity, one.corners), one.corners).squaredNorm();
+    floor += residual_px(floor_corners(fit.scene, i), problem.floor[i]).squaredNorm();
+  for (const RobotSighting& one : fit.robot) robot += misfit_of(fit.scene, one)(one.pose).squaredNorm();
   fit.floor_rms_px = rms_of(floor, fit.scene.tags.size());
   fit.robot_rms_px = rms_of(robot, fit.robot.size());
 }
@@ -261,7 +254,7 @@ SceneFit fit_scene(const Scene& start, const std::vector<TagCorners>& floor, std
   while (fit.iterations < kMostIterations && !fit.converged) {
     ++fit.iterations;
     State next = after_step(state, equations, lambda);
-    settle_poses(next, problem);
+    settle_poses(next);
     const double next_cost = cost_of(next, problem, parameters);
     if (!(next_cost < cost)) {  // written so that a NaN is refused, too
       fit.converged = lambda > 1e6;
@@ -275,7 +268,7 @@ SceneFit fit_scene(const Scene& start, const std::vector<TagCorners>& floor, std
     if (!std::exchange(refused, false)) lambda = std::max(lambda / 10, 1e-9);
     equations = equations_of(state, problem, parameters);
   }
-  const MatrixXd information = reduced(equations, 0).first;
+  const MatrixXd information = reduced(equations, pictures_of(equations, 0), 0).hessian;
   fit.covariance = information.ldlt().solve(MatrixXd::Identity(information.rows(), information.cols()));
   fit.scene = std::move(state.scene);
   fit.robot = std::move(state.robot);
