@@ -87,7 +87,7 @@ set(ASTRO_OUTSIDE
   "apriltag/                : host/film/picture host/film/paper"
   "CLI/                     : host/console"
   "Eigen/                   : host/base host/calibration host/motor/model host/film host/simulation/study host/truth/floor host/wall"
-  "boost/                   : host/live/foxglove host/robot/port host/robot/sharing"
+  "boost/                   : host/base host/commands/live host/live/foxglove host/robot/port host/robot/sharing"
   "cairo/                   : host/film/paper host/film/runs"
   "fastdds/ fastrtps/       : host/live/dds"
   "fmt/                     : host"
@@ -103,7 +103,7 @@ set(ASTRO_OUTSIDE
 
   # The operating system.
   "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording host/robot/port host/robot/sharing host/simulation/server host/truth/live"
-  "arpa/ netinet/ netdb.h   : host/base"
+  "netinet/                 : host/base"
   "csignal                  : host/console"
   "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/recording host/robot host/simulation host/truth host/wall"
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/live/dds host/live/foxglove host/simulation/server host/simulation/study host/truth/live"

@@ -193,13 +193,7 @@ void serve(simulation::Server& server, const std::string& what) {
   const fs::path& pty = server.config().pty;
   const auto link = link_in_runtime_folder(pty);
   console::say(fmt::format("{} is at {}", what, pty.string()));
-  const auto say_address = [&](const char* protocol, const auto& tracker) {
-    if (!tracker) return;
-    console::say(fmt::format("its pose is at {}://{}:{}/{}", protocol, tracker->address().host(),
-                             tracker->port(), server.config().tracker.body));
-  };
-  say_address("vrpn", server.tracker().vrpn());
-  say_address("natnet", server.tracker().natnet());
+  for (const std::string& url : server.tracker().urls()) console::say("its pose is at " + url);
   console::say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
   server.run(console::interrupted);
 }

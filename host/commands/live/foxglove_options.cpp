@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <boost/asio/ip/address.hpp>
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/socket.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
@@ -60,7 +60,9 @@ foxglove::Address foxglove_address_in(const std::string& word) {
   std::string ip = word.substr(0, colon);
   if (ip == "localhost") return address;
   if (ip.starts_with('[') && ip.ends_with(']')) ip = ip.substr(1, ip.size() - 2);
-  if (!net::is_address(ip))
+  boost::system::error_code no_address;
+  boost::asio::ip::make_address(ip, no_address);
+  if (no_address)
     throw Error("'" + ip + "' is no address of a network, as 192.168.1.7, [::1] or 0.0.0.0 for all of them");
   address.ip = std::move(ip);
   return address;

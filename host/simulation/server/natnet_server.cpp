@@ -24,8 +24,8 @@ std::uint64_t ticks(std::int64_t time_us) {
 
 }  // namespace
 
-NatNetServer::NatNetServer(const net::Address& at, std::string body, natnet::Version version)
-    : socket_(net::bind_udp(at)), body_(std::move(body)), version_(version) {}
+NatNetServer::NatNetServer(const net::udp::endpoint& at, std::string body, natnet::Version version)
+    : socket_(net::bind_udp(io_, at)), body_(std::move(body)), version_(version) {}
 
 void NatNetServer::work(std::int64_t now_us) {
   std::array<std::uint8_t, 1024> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): receive fills it
@@ -34,10 +34,9 @@ void NatNetServer::work(std::int64_t now_us) {
 }
 
 /// False if the sender is not a client: it has not connected, or there are too many.
-bool NatNetServer::note_client(const net::Address& from, bool connects, std::int64_t now_us) {
-  const auto known = std::find_if(clients_.begin(), clients_.end(), [&](const Client& client) {
-    return client.address.port() == from.port() && client.address.host() == from.host();
-  });
+bool NatNetServer::note_client(const net::udp::endpoint& from, bool connects, std::int64_t now_us) {
+  const auto known = std::find_if(clients_.begin(), clients_.end(),
+                                  [&](const Client& client) { return client.endpoint == from; });
   if (known != clients_.end()) {
     known->heard_us = now_us;
     return true;
@@ -73,7 +72,7 @@ void NatNetServer::send(const TrackedFrame& frame, std::int64_t now_us) {
   out.exposed_ticks = ticks(frame.exposed_us);
   out.received_ticks = out.sent_ticks = ticks(now_us);
   const Bytes datagram = natnet::datagram_of(natnet::Id::frame, natnet::payload_of(out, version_));
-  for (const Client& client : clients_) net::send_datagram(socket_, datagram, client.address);
+  for (const Client& client : clients_) net::send_datagram(socket_, datagram, client.endpoint);
 }
 
 }  // namespace astro::simulation

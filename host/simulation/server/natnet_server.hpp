@@ -5,7 +5,7 @@
 #include <list>
 #include <string>
 
-#include "host/base/socket.hpp"
+#include "host/base/network.hpp"
 #include "host/simulation/server/virtual_tracker.hpp"
 #include "host/truth/trackers/natnet_packet.hpp"
 
@@ -18,27 +18,27 @@ namespace astro::simulation {
 class NatNetServer {
  public:
   /// `at`: its address for commands. Throws astro::Error if that is in use.
-  NatNetServer(const net::Address& at, std::string body, truth::natnet::Version version);
+  NatNetServer(const net::udp::endpoint& at, std::string body, truth::natnet::Version version);
 
   /// Takes what clients send. `now_us`: on the tracker's clock.
   void work(std::int64_t now_us);
   /// `now_us`: when the frame leaves.
   void send(const TrackedFrame& frame, std::int64_t now_us);
 
-  net::Address address() const { return net::Address::local(socket_); }
-  std::uint16_t port() const { return address().port(); }
+  net::udp::endpoint endpoint() const { return socket_.local_endpoint(); }
   std::size_t clients() const { return clients_.size(); }
 
  private:
   struct Client {
-    net::Address address;
+    net::udp::endpoint endpoint;
     std::int64_t heard_us = 0;
   };
 
   void take(const net::Datagram& datagram, std::int64_t now_us);
-  bool note_client(const net::Address& from, bool connects, std::int64_t now_us);
+  bool note_client(const net::udp::endpoint& from, bool connects, std::int64_t now_us);
 
-  net::Socket socket_;
+  net::io_context io_;  // outlives the socket
+  net::udp::socket socket_;
   std::string body_;
   truth::natnet::Version version_;
   std::list<Client> clients_;

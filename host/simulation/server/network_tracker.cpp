@@ -1,12 +1,22 @@
 #include "host/simulation/server/network_tracker.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+
+#include "host/simulation/server/natnet_server.hpp"
+#include "host/simulation/server/vrpn_server.hpp"
 
 namespace astro::simulation {
 namespace {
 
-net::Address address_of(const NetworkTrackerConfig& config, std::uint16_t port) {
-  return config.everywhere ? net::Address::everywhere(port) : net::Address::loopback(port);
+net::address_v4 address_of(const NetworkTrackerConfig& config) {
+  return config.everywhere ? net::address_v4::any() : net::address_v4::loopback();
+}
+
+template <class Endpoint>
+std::string url_of(const char* scheme, const Endpoint& at, const std::string& body) {
+  return fmt::format("{}://{}:{}/{}", scheme, at.address().to_string(), at.port(), body);
 }
 
 std::int64_t time_of_day_us() {
@@ -18,10 +28,22 @@ std::int64_t time_of_day_us() {
 }  // namespace
 
 NetworkTracker::NetworkTracker(const NetworkTrackerConfig& config)
-    : tracker_(config.faults), also_(config.also), now_us_(time_of_day_us()) {
-  if (config.vrpn_port) vrpn_.emplace(address_of(config, *config.vrpn_port), config.body);
+    : tracker_(config.faults), also_(config.also), body_(config.body), now_us_(time_of_day_us()) {
+  const auto address = address_of(config);
+  if (config.vrpn_port)
+    vrpn_ = std::make_unique<VrpnServer>(net::tcp::endpoint(address, *config.vrpn_port), body_);
   if (config.natnet_port)
-    natnet_.emplace(address_of(config, *config.natnet_port), config.body, config.natnet_version);
+    natnet_ = std::make_unique<NatNetServer>(net::udp::endpoint(address, *config.natnet_port), body_,
+                                             config.natnet_version);
+}
+
+NetworkTracker::~NetworkTracker() = default;
+
+std::vector<std::string> NetworkTracker::urls() const {
+  std::vector<std::string> urls;
+  if (vrpn_) urls.push_back(url_of("vrpn", vrpn_->endpoint(), body_));
+  if (natnet_) urls.push_back(url_of("natnet", natnet_->endpoint(), body_));
+  return urls;
 }
 
 void NetworkTracker::step(const std::vector<recording::TruthSample>& seen) {

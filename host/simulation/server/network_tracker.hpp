@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "host/recording/run.hpp"
-#include "host/simulation/server/natnet_server.hpp"
 #include "host/simulation/server/virtual_tracker.hpp"
-#include "host/simulation/server/vrpn_server.hpp"
+#include "host/truth/trackers/natnet_packet.hpp"
 
 namespace astro::simulation {
+
+class NatNetServer;
+class VrpnServer;
 
 struct NetworkTrackerConfig {
   std::optional<std::uint16_t> vrpn_port;    // 0: any that is free; nothing: no VRPN
@@ -29,21 +31,25 @@ class NetworkTracker {
  public:
   /// Throws astro::Error if a port is in use.
   explicit NetworkTracker(const NetworkTrackerConfig& config);
+  ~NetworkTracker();
 
   /// Advances the simulation's time by a millisecond, in which the cameras have seen `seen`.
   void step(const std::vector<recording::TruthSample>& seen);
   /// Serves the clients; call often.
   void work();
 
-  /// Empty if this protocol is not served.
-  const std::optional<VrpnServer>& vrpn() const { return vrpn_; }
-  const std::optional<NatNetServer>& natnet() const { return natnet_; }
+  /// Null if this protocol is not served.
+  const VrpnServer* vrpn() const { return vrpn_.get(); }
+  const NatNetServer* natnet() const { return natnet_.get(); }
+  /// Where the protocols that are served find the body: "vrpn://127.0.0.1:3883/ASTRO".
+  std::vector<std::string> urls() const;
 
  private:
   VirtualTracker tracker_;
   std::shared_ptr<FrameSink> also_;
-  std::optional<VrpnServer> vrpn_;
-  std::optional<NatNetServer> natnet_;
+  std::string body_;
+  std::unique_ptr<VrpnServer> vrpn_;
+  std::unique_ptr<NatNetServer> natnet_;
   std::int64_t now_us_;
 };
 

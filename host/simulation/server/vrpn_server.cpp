@@ -45,12 +45,14 @@ Bytes greeting(const std::string& body, std::int64_t now_us) {
 
 }  // namespace
 
-VrpnServer::VrpnServer(const net::Address& at, std::string body)
-    : listener_(net::listen_tcp(at)),
-      requests_(net::bind_udp(at.with_port(net::Address::local(listener_).port()))),
+VrpnServer::VrpnServer(const net::tcp::endpoint& at, std::string body)
+    : listener_(net::listen_tcp(io_, at)),
+      requests_(net::bind_udp(io_, {at.address(), endpoint().port()})),
       body_(std::move(body)) {}
 
 void VrpnServer::work(std::int64_t now_us) {
+  io_.restart();
+  io_.poll();  // what has become of the connections to clients that asked
   accept(now_us);
   take_requests(now_us);
   for (Client& client : clients_) {
@@ -62,17 +64,16 @@ void VrpnServer::work(std::int64_t now_us) {
   std::erase_if(clients_, [](const Client& client) { return client.closed; });
 }
 
-void VrpnServer::add(net::Socket socket, bool called, std::int64_t now_us) {
+void VrpnServer::add(net::tcp::socket socket, std::shared_ptr<const net::Connecting> called,
+                     std::int64_t now_us) {
   if (clients_.size() >= kMostClients) return;
-  Client& client = clients_.emplace_back();
-  client.socket = std::move(socket);
-  net::bound_sending(client.socket, kMostWaiting);
-  client.called = called;
-  client.waiting = greeting(body_, now_us);
+  // Without this bound the system keeps megabytes that a client has not taken.
+  socket.set_option(net::tcp::socket::send_buffer_size(kMostWaiting));
+  clients_.push_back({std::move(socket), std::move(called), false, greeting(body_, now_us)});
 }
 
 void VrpnServer::accept(std::int64_t now_us) {
-  while (auto accepted = net::accept_tcp(listener_)) add(std::move(accepted->socket), false, now_us);
+  while (auto accepted = net::accept_tcp(listener_)) add(std::move(accepted->socket), nullptr, now_us);
 }
 
 void VrpnServer::take_requests(std::int64_t now_us) {
@@ -80,15 +81,14 @@ void VrpnServer::take_requests(std::int64_t now_us) {
   while (const auto request = net::receive_datagram(requests_, buffer)) {
     const std::uint16_t port = port_in(as_text(request->bytes));
     if (port == 0) continue;
-    if (net::Socket socket = net::begin_tcp(request->from.with_port(port)))
-      add(std::move(socket), true, now_us);
+    if (auto attempt = net::begin_tcp(io_, {request->from.address(), port}))
+      add(std::move(attempt->socket), std::move(attempt->state), now_us);
   }
 }
 
 void VrpnServer::follow_call(Client& client) {
-  const net::Connecting state = net::connecting(client.socket);
-  client.called = state == net::Connecting::pending;
-  client.closed = state == net::Connecting::failed;
+  client.closed = *client.called == net::Connecting::failed;
+  if (*client.called == net::Connecting::connected) client.called.reset();
 }
 
 void VrpnServer::read(Client& client, std::int64_t now_us) {

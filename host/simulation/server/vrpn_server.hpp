@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <list>
+#include <memory>
 #include <string>
 
-#include "host/base/socket.hpp"
+#include "host/base/network.hpp"
 #include "host/simulation/server/virtual_tracker.hpp"
 #include "host/truth/trackers/vrpn_directory.hpp"
 #include "host/truth/trackers/vrpn_reader.hpp"
@@ -21,27 +22,26 @@ namespace astro::simulation {
 class VrpnServer {
  public:
   /// `at`: its address for TCP and UDP. Throws astro::Error if that is in use.
-  VrpnServer(const net::Address& at, std::string body);
+  VrpnServer(const net::tcp::endpoint& at, std::string body);
 
   /// Takes new clients and what they send. `now_us`: on the tracker's clock.
   void work(std::int64_t now_us);
   void send(const TrackedFrame& frame);
 
-  net::Address address() const { return net::Address::local(listener_); }
-  std::uint16_t port() const { return address().port(); }
+  net::tcp::endpoint endpoint() const { return listener_.local_endpoint(); }
   std::size_t clients() const { return clients_.size(); }
 
  private:
   struct Client {
-    net::Socket socket;
-    bool called = false;  // we connect back to it, and it has not answered yet
+    net::tcp::socket socket;
+    std::shared_ptr<const net::Connecting> called;  // until it answers, if we connect back to it
     bool closed = false;
     Bytes waiting{};
     truth::vrpn::StreamReader reader{};
     truth::vrpn::Directory directory{};
   };
 
-  void add(net::Socket socket, bool called, std::int64_t now_us);
+  void add(net::tcp::socket socket, std::shared_ptr<const net::Connecting> called, std::int64_t now_us);
   void accept(std::int64_t now_us);
   void take_requests(std::int64_t now_us);
   static void follow_call(Client& client);
@@ -49,7 +49,9 @@ class VrpnServer {
   void answer(Client& client, const truth::vrpn::Message& message, std::int64_t now_us);
   static void write(Client& client);
 
-  net::Socket listener_, requests_;
+  net::io_context io_;  // outlives the sockets
+  net::tcp::acceptor listener_;
+  net::udp::socket requests_;
   std::string body_;
   std::list<Client> clients_;
   std::uint32_t sequence_ = 0;

@@ -23,8 +23,8 @@ constexpr microseconds kSilence = seconds(3);  // without any datagram
 constexpr int kMostDatagrams = 256;            // of one call, so that a server cannot block us
 
 /// A socket at the address by which this computer reaches the server.
-net::Socket command_socket(const net::Address& server) {
-  return net::bind_udp(net::Address::local(net::connect_udp(server)).with_port(0));
+net::udp::socket command_socket(net::io_context& io, const net::udp::endpoint& server) {
+  return net::bind_udp(io, {net::connect_udp(io, server).local_endpoint().address(), 0});
 }
 
 constexpr natnet::Version kOldest{3, 0};
@@ -104,19 +104,19 @@ std::string NatNetStream::why_silent() const {
   return "it knows " + list_of(names_) + " but sends no pose of it";
 }
 
-NatNetLink::NatNetLink(const TrackerUrl& url)
-    : NatNetLink(url, net::Address::all_of(url.host, url.with_usual_port(natnet::kCommandPort).port)) {}
+NatNetLink::NatNetLink(const TrackerUrl& url) : NatNetLink(url, net::addresses_of(url.host)) {}
 
-NatNetLink::NatNetLink(const TrackerUrl& url, const std::vector<net::Address>& servers)
+NatNetLink::NatNetLink(const TrackerUrl& url, const std::vector<net::address>& servers)
     : url_(url.with_usual_port(natnet::kCommandPort)), servers_(reachable(servers)), stream_(url_.body) {}
 
 /// Leaves out servers to which this computer has no route, such as an IPv6 address where only IPv4 is set up.
-std::vector<NatNetLink::Server> NatNetLink::reachable(const std::vector<net::Address>& servers) {
+std::vector<NatNetLink::Server> NatNetLink::reachable(const std::vector<net::address>& servers) {
   std::vector<Server> reachable;
   std::optional<Error> failure;
-  for (const net::Address& address : servers) {
+  for (const auto& address : servers) {
+    const net::udp::endpoint endpoint(address, url_.port);
     try {
-      reachable.push_back({address, command_socket(address)});
+      reachable.push_back({endpoint, command_socket(io_, endpoint)});
     } catch (const Error& error) {
       failure = error;
     }
@@ -127,7 +127,7 @@ std::vector<NatNetLink::Server> NatNetLink::reachable(const std::vector<net::Add
 
 void NatNetLink::work(microseconds now) {
   read(server().command, now);
-  if (data_) read(data_, now);
+  if (data_) read(*data_, now);
   if (!answered_ && stream_.server()) {
     answered_ = true;
     asked_before_ = false;
@@ -137,21 +137,27 @@ void NatNetLink::work(microseconds now) {
   }
   if (answered_ && now - heard_at_ > kSilence) {
     answered_ = false;
-    data_ = {};
+    data_.reset();
     stream_ = NatNetStream(url_.body.empty() ? stream_.body() : url_.body);
   }
   if (now >= ask_at_) ask(now);
 }
 
-void NatNetLink::wait(microseconds timeout) { net::wait_to_read(server().command, data_, timeout); }
+void NatNetLink::wait(microseconds timeout) {
+  if (data_) {
+    net::wait_to_read(io_, timeout, server().command, *data_);
+  } else {
+    net::wait_to_read(io_, timeout, server().command);
+  }
+}
 
-void NatNetLink::read(const net::Socket& socket, microseconds now) {
+void NatNetLink::read(net::udp::socket& socket, microseconds now) {
   std::array<std::uint8_t, 65'536>
       buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): receive fills it
   for (int i = 0; i < kMostDatagrams; ++i) {
     const auto datagram = net::receive_datagram(socket, buffer);
     if (!datagram) return;
-    if (datagram->from.host() != server().address.host()) {
+    if (datagram->from.address() != server().endpoint.address()) {
       note_elsewhere(*datagram);
       continue;
     }
@@ -164,7 +170,7 @@ void NatNetLink::note_elsewhere(const net::Datagram& datagram) {
   const auto packet = natnet::packet_in(datagram.bytes);
   if (!packet || packet->id != natnet::Id::frame) return;
   ++from_elsewhere_;
-  elsewhere_ = datagram.from.host();
+  elsewhere_ = datagram.from.address().to_string();
 }
 
 /// If the socket for data cannot be opened, frames may still come to the other one.
@@ -172,12 +178,12 @@ void NatNetLink::open_data() {
   const natnet::ServerInfo& info = *stream_.server();
   multicast_ = info.multicast;
   try {
-    const net::Address local = net::Address::local(server().command);
-    data_ = multicast_ ? net::join_multicast(info.group, info.data_port, local)
-                       : net::bind_udp(local.with_port(info.data_port));
+    const auto local = server().command.local_endpoint().address();
+    data_ = multicast_ ? net::join_multicast(io_, {net::address_v4(info.group), info.data_port}, local)
+                       : net::bind_udp(io_, {local, info.data_port});
     why_no_data_.clear();
   } catch (const Error& error) {
-    data_ = {};
+    data_.reset();
     why_no_data_ = error.what();
   }
 }
@@ -185,7 +191,7 @@ void NatNetLink::open_data() {
 void NatNetLink::ask(microseconds now) {
   if (!answered_ && std::exchange(asked_before_, true)) asked_ = (asked_ + 1) % servers_.size();
   const auto send = [this](const Bytes& datagram) {
-    net::send_datagram(server().command, datagram, server().address);
+    net::send_datagram(server().command, datagram, server().endpoint);
   };
   if (!answered_) {
     send(natnet::connect_request());
@@ -203,7 +209,7 @@ std::string NatNetLink::why_silent() const {
   if (answered_ && !stream_.has_frames() && !why_no_data_.empty()) why += " (" + why_no_data_ + ")";
   if (from_elsewhere_ > 0)
     why += fmt::format("; frames from {} ({} so far) are not read, because {} was asked", elsewhere_,
-                       from_elsewhere_, server().address.host());
+                       from_elsewhere_, servers_[asked_].endpoint.address().to_string());
   return why;
 }
 

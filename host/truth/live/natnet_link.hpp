@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/base/socket.hpp"
+#include "host/base/network.hpp"
 #include "host/truth/live/sighting.hpp"
 #include "host/truth/live/tracker_link.hpp"
 #include "host/truth/live/tracker_url.hpp"
@@ -63,7 +63,7 @@ class NatNetLink : public TrackerLink {
   /// Throws astro::Error if the host's name is unknown or no socket can be made.
   explicit NatNetLink(const TrackerUrl& url);
   /// `servers`: the addresses to ask, at least one.
-  NatNetLink(const TrackerUrl& url, const std::vector<net::Address>& servers);
+  NatNetLink(const TrackerUrl& url, const std::vector<net::address>& servers);
 
   void work(std::chrono::microseconds now) override;
   void wait(std::chrono::microseconds timeout) override;
@@ -79,21 +79,22 @@ class NatNetLink : public TrackerLink {
 
   /// One address of the server, and the socket by which it is asked.
   struct Server {
-    net::Address address;
-    net::Socket command;
+    net::udp::endpoint endpoint;
+    net::udp::socket command;
   };
 
-  const Server& server() const { return servers_[asked_]; }
-  static std::vector<Server> reachable(const std::vector<net::Address>& servers);
-  void read(const net::Socket& socket, microseconds now);
+  Server& server() { return servers_[asked_]; }
+  std::vector<Server> reachable(const std::vector<net::address>& servers);
+  void read(net::udp::socket& socket, microseconds now);
   void note_elsewhere(const net::Datagram& datagram);
   void open_data();
   void ask(microseconds now);
 
   TrackerUrl url_;
+  net::io_context io_;  // outlives the sockets
   std::vector<Server> servers_;
   std::size_t asked_ = 0;  // the one of them that is asked now
-  net::Socket data_;
+  std::optional<net::udp::socket> data_;
   NatNetStream stream_;
   microseconds ask_at_{}, heard_at_{};
   int connections_ = 0;

@@ -22,10 +22,9 @@ constexpr int kMostReads = 16;
 
 }  // namespace
 
-VrpnLink::VrpnLink(const TrackerUrl& url)
-    : VrpnLink(url, net::Address::all_of(url.host, url.with_usual_port(vrpn::kPort).port)) {}
+VrpnLink::VrpnLink(const TrackerUrl& url) : VrpnLink(url, net::addresses_of(url.host)) {}
 
-VrpnLink::VrpnLink(const TrackerUrl& url, std::vector<net::Address> servers)
+VrpnLink::VrpnLink(const TrackerUrl& url, std::vector<net::address> servers)
     : url_(url.with_usual_port(vrpn::kPort)), servers_(std::move(servers)), stream_(url_.body) {}
 
 void VrpnLink::work(microseconds now) {
@@ -34,12 +33,12 @@ void VrpnLink::work(microseconds now) {
       if (now < due_) return;
       tried_ = 0;
       return begin(now);
-    case State::connecting: {
-      const net::Connecting outcome = net::connecting(connection_);
-      if (outcome == net::Connecting::connected) return rise(std::move(connection_));
-      if (outcome == net::Connecting::failed || now >= deadline_) begin_next(now);
+    case State::connecting:
+      io_.restart();
+      io_.poll();
+      if (*attempt_->state == net::Connecting::connected) return rise(std::move(attempt_->socket));
+      if (*attempt_->state == net::Connecting::failed || now >= deadline_) begin_next(now);
       return;
-    }
     case State::asking:
       return repeat_asking(now);
     case State::up:
@@ -48,12 +47,12 @@ void VrpnLink::work(microseconds now) {
 }
 
 void VrpnLink::wait(microseconds timeout) {
-  if (state_ == State::up) {
-    net::wait_to_read(connection_, timeout);
-  } else if (state_ == State::connecting) {
-    net::wait_to_connect(connection_, timeout);
+  if (connection_) {
+    net::wait_to_read(io_, timeout, *connection_);
+  } else if (listener_) {
+    net::wait_to_read(io_, timeout, *listener_);
   } else {
-    net::wait_to_read(listener_, timeout);  // waits in any case, if there is none
+    net::wait_to_read(io_, timeout);  // for the attempt to connect, if there is one
   }
 }
 
@@ -62,10 +61,10 @@ microseconds VrpnLink::share_of(microseconds limit) const {
 }
 
 void VrpnLink::begin(microseconds now) {
-  connection_ = net::begin_tcp(server());
+  attempt_ = net::begin_tcp(io_, {server(), url_.port});
   state_ = State::connecting;
   deadline_ = now + share_of(kConnectTimeout);
-  if (!connection_) begin_next(now);
+  if (!attempt_) begin_next(now);
 }
 
 void VrpnLink::begin_next(microseconds now) {
@@ -77,10 +76,10 @@ void VrpnLink::begin_next(microseconds now) {
 /// The server calls back at the address that the datagram comes from, so the address that is named in it has
 /// no effect.
 void VrpnLink::ask(microseconds now) {
-  connection_ = {};
+  attempt_.reset();
   try {
-    asking_ = net::connect_udp(server());
-    listener_ = net::listen_tcp(net::Address::local(asking_).with_port(0));
+    asking_ = net::connect_udp(io_, {server(), url_.port});
+    listener_ = net::listen_tcp(io_, {asking_->local_endpoint().address(), 0});
   } catch (const Error& error) {
     return ask_next(now, error.what());
   }
@@ -96,35 +95,38 @@ void VrpnLink::ask_next(microseconds now, const std::string& why) {
 }
 
 void VrpnLink::repeat_asking(microseconds now) {
-  auto caller = net::accept_tcp(listener_);
-  if (caller && caller->from.host() == server().host()) {
+  auto caller = net::accept_tcp(*listener_);
+  if (caller && caller->from.address() == server()) {
     called_back_ = true;
     return rise(std::move(caller->socket));
   }
   if (now >= deadline_) return ask_next(now, "nothing answers there, neither by TCP nor by a call back");
   if (now < due_) return;
-  const net::Address ours = net::Address::local(listener_);
-  const std::string request = ours.host() + " " + std::to_string(ours.port());
-  Bytes datagram(request.begin(), request.end());
-  datagram.push_back(0);
-  net::send(asking_, datagram);
+  const auto ours = listener_->local_endpoint();
+  std::string request = ours.address().to_string() + " " + std::to_string(ours.port());
+  request.push_back('\0');
+  net::send_datagram(*asking_, as_bytes(request), {server(), url_.port});
   due_ = now + kAskPeriod;
 }
 
-void VrpnLink::rise(net::Socket socket) {
+void VrpnLink::drop_sockets() {
+  attempt_.reset();
+  connection_.reset();
+  listener_.reset();
+  asking_.reset();
+}
+
+void VrpnLink::rise(net::tcp::socket socket) {
+  drop_sockets();
   connection_ = std::move(socket);
-  listener_ = {};
-  asking_ = {};
   stream_ = VrpnStream(url_.body.empty() ? stream_.body() : url_.body);
   state_ = State::up;
   ++connections_;
-  net::send(connection_, vrpn::cookie());
+  net::send(*connection_, vrpn::cookie());
 }
 
 void VrpnLink::fall(microseconds now, const std::string& why) {
-  connection_ = {};
-  listener_ = {};
-  asking_ = {};
+  drop_sockets();
   state_ = State::down;
   called_back_ = false;
   why_down_ = why;
@@ -135,7 +137,7 @@ void VrpnLink::read(microseconds now) {
   std::array<std::uint8_t, 16384> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): receive fills it
   try {
     for (int i = 0; i < kMostReads; ++i) {
-      const auto bytes = net::receive(connection_, buffer);
+      const auto bytes = net::receive(*connection_, buffer);
       if (!bytes) return fall(now, "it has ended the connection");
       if (bytes->empty()) return;
       stream_.push(*bytes, now.count());

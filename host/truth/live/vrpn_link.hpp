@@ -2,10 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "host/base/socket.hpp"
+#include "host/base/network.hpp"
 #include "host/truth/live/tracker_link.hpp"
 #include "host/truth/live/tracker_url.hpp"
 #include "host/truth/live/vrpn_stream.hpp"
@@ -21,7 +22,7 @@ class VrpnLink : public TrackerLink {
   /// Throws astro::Error if the host's name is unknown.
   explicit VrpnLink(const TrackerUrl& url);
   /// `servers`: the addresses to try, at least one.
-  VrpnLink(const TrackerUrl& url, std::vector<net::Address> servers);
+  VrpnLink(const TrackerUrl& url, std::vector<net::address> servers);
 
   void work(std::chrono::microseconds now) override;
   void wait(std::chrono::microseconds timeout) override;
@@ -37,23 +38,28 @@ class VrpnLink : public TrackerLink {
 
   using microseconds = std::chrono::microseconds;
 
-  const net::Address& server() const { return servers_[tried_]; }
+  const net::address& server() const { return servers_[tried_]; }
   microseconds share_of(microseconds limit) const;
   void begin(microseconds now);
   void begin_next(microseconds now);
   void ask(microseconds now);
   void ask_next(microseconds now, const std::string& why);
   void repeat_asking(microseconds now);
-  void rise(net::Socket socket);
+  void drop_sockets();
+  void rise(net::tcp::socket socket);
   void fall(microseconds now, const std::string& why);
   void read(microseconds now);
 
   TrackerUrl url_;
-  std::vector<net::Address> servers_;
+  std::vector<net::address> servers_;
   std::size_t tried_ = 0;  // the one of them that is tried now
   VrpnStream stream_;
   State state_ = State::down;
-  net::Socket connection_, listener_, asking_;
+  net::io_context io_;  // outlives the sockets
+  std::optional<net::Attempt> attempt_;
+  std::optional<net::tcp::socket> connection_;
+  std::optional<net::tcp::acceptor> listener_;
+  std::optional<net::udp::socket> asking_;
   microseconds due_{};  // of the next step of the state
   microseconds deadline_{};
   int connections_ = 0;

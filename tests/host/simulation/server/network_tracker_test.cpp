@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "host/base/error.hpp"
-#include "host/base/socket.hpp"
+#include "host/base/network.hpp"
+#include "host/simulation/server/natnet_server.hpp"
+#include "host/simulation/server/vrpn_server.hpp"
 #include "host/truth/live/live_source.hpp"
 #include "host/truth/live/natnet_link.hpp"
 #include "host/truth/live/vrpn_link.hpp"
@@ -19,6 +21,7 @@
 namespace astro::simulation {
 namespace {
 
+using net::address_v4;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using support::Tells;
@@ -120,7 +123,8 @@ NetworkTrackerConfig with_vrpn(double latency_s = 0.008, double dropped = 0) {
 }
 
 truth::TrackerUrl url_of(const Lab& lab, const std::string& body = "ASTRO") {
-  return truth::tracker_url_in("vrpn://127.0.0.1:" + std::to_string(lab.tracker.vrpn()->port()) + "/" + body);
+  return truth::tracker_url_in("vrpn://127.0.0.1:" + std::to_string(lab.tracker.vrpn()->endpoint().port()) +
+                               "/" + body);
 }
 
 std::unique_ptr<truth::LiveSource> open(Lab& lab, const truth::TrackerUrl& url) {
@@ -169,9 +173,8 @@ TEST(NetworkTracker, ABodyThatIsNotSeenIsNamedAsSuch) {
 
 TEST(NetworkTracker, WhereNothingListensTheClientSaysSo) {
   Lab lab(NetworkTrackerConfig{});
-  net::Socket taken = net::listen_tcp(net::Address::loopback(0));
-  const std::uint16_t port = net::Address::local(taken).port();
-  taken = net::Socket();
+  net::io_context io;
+  const std::uint16_t port = net::listen_tcp(io, {address_v4::loopback(), 0}).local_endpoint().port();
   const auto url = truth::tracker_url_in("vrpn://127.0.0.1:" + std::to_string(port) + "/ASTRO");
   EXPECT_THAT([&] { open(lab, url); },
               ThrowsTelling(LiveProblem::tracker_silent, url.place(),
@@ -180,7 +183,7 @@ TEST(NetworkTracker, WhereNothingListensTheClientSaysSo) {
 
 TEST(NetworkTracker, AClientThatLosesItConnectsAgain) {
   auto lab = std::make_unique<Lab>(with_vrpn());
-  const std::uint16_t port = lab->tracker.vrpn()->port();
+  const std::uint16_t port = lab->tracker.vrpn()->endpoint().port();
   const truth::TrackerUrl url = url_of(*lab);
   truth::VrpnLink link(url);
   microseconds now{0};
@@ -204,20 +207,26 @@ TEST(NetworkTracker, AClientThatLosesItConnectsAgain) {
   EXPECT_EQ(link.connections(), 2);
 }
 
+void send_datagram(const Lab& lab, const std::string& request) {
+  net::io_context io;
+  const auto at = lab.tracker.vrpn()->endpoint();
+  net::udp::socket socket = net::bind_udp(io, {at.address(), 0});
+  net::send_datagram(socket, as_bytes(request), {at.address(), at.port()});
+}
+
 /// A client of the library, which asks by UDP to be called.
 TEST(NetworkTracker, ItCallsBackWhoeverAsksByUdp) {
   Lab lab(with_vrpn());
-  const net::Address server = net::Address::loopback(lab.tracker.vrpn()->port());
-  const net::Socket listener = net::listen_tcp(net::Address::loopback(0)), asking = net::connect_udp(server);
-  const std::string request = "10.1.2.3 " + std::to_string(net::Address::local(listener).port());
-  net::send(asking, as_bytes(request));
+  net::io_context io;
+  net::tcp::acceptor listener = net::listen_tcp(io, {address_v4::loopback(), 0});
+  send_datagram(lab, "10.1.2.3 " + std::to_string(listener.local_endpoint().port()));
   lab.pass(milliseconds(5));
-  const auto called = net::accept_tcp(listener);
+  auto called = net::accept_tcp(listener);
   ASSERT_TRUE(called) << "at the address that the request came from, not at the one that it names";
   lab.pass(milliseconds(100));
   std::array<std::uint8_t, 4096> buffer{};
   truth::VrpnStream stream("ASTRO");
-  while (net::wait_to_read(called->socket, milliseconds(10))) {
+  while (net::wait_to_read(io, milliseconds(10), called->socket)) {
     stream.push(*net::receive(called->socket, buffer), 0);
     if (stream.senders().size() == 1) break;
   }
@@ -226,18 +235,18 @@ TEST(NetworkTracker, ItCallsBackWhoeverAsksByUdp) {
 
 TEST(NetworkTracker, RequestsForNoPortOrAPortOfTheSystemAreIgnored) {
   Lab lab(with_vrpn());
-  const net::Socket asking = net::connect_udp(net::Address::loopback(lab.tracker.vrpn()->port()));
   for (const char* request :
        {"", "127.0.0.1", "127.0.0.1 ", "127.0.0.1 22", "127.0.0.1 99999", "127.0.0.1 -5"})
-    net::send(asking, as_bytes(request));
+    send_datagram(lab, request);
   lab.pass(milliseconds(20));
   EXPECT_EQ(lab.tracker.vrpn()->clients(), 0U);
 }
 
 /// A client with bytes of its own.
 struct RawClient {
-  explicit RawClient(Lab& in)
-      : lab(in), socket(net::begin_tcp(net::Address::loopback(in.tracker.vrpn()->port()))) {
+  explicit RawClient(Lab& in) : lab(in) {
+    socket.connect(lab.tracker.vrpn()->endpoint());
+    socket.non_blocking(true);
     lab.pass(milliseconds(5));
   }
   Bytes received() {
@@ -249,7 +258,8 @@ struct RawClient {
     return all;
   }
   Lab& lab;
-  net::Socket socket;
+  net::io_context io;
+  net::tcp::socket socket{io};
 };
 
 TEST(NetworkTracker, AnswersPingsAsTheLibrarysClientsExpect) {
@@ -299,13 +309,16 @@ TEST(NetworkTracker, SeventeenClientsAreOneTooMany) {
 
 TEST(NetworkTracker, ListensToThisComputerAlone) {
   Lab lab(with_vrpn());
-  EXPECT_EQ(lab.tracker.vrpn()->address().host(), "127.0.0.1");
+  const auto at = lab.tracker.vrpn()->endpoint();
+  EXPECT_EQ(at.address(), address_v4::loopback());
+  EXPECT_THAT(lab.tracker.urls(),
+              testing::ElementsAre("vrpn://127.0.0.1:" + std::to_string(at.port()) + "/ASTRO"));
 }
 
 TEST(NetworkTracker, APortInUseIsNamed) {
   Lab lab(with_vrpn());
   NetworkTrackerConfig same = with_vrpn();
-  same.vrpn_port = lab.tracker.vrpn()->port();
+  same.vrpn_port = lab.tracker.vrpn()->endpoint().port();
   EXPECT_THAT([&] { NetworkTracker{same}; }, ThrowsTelling(net::AddressProblem::port_unusable,
                                                            std::to_string(*same.vrpn_port), "127.0.0.1"));
 }
@@ -321,7 +334,8 @@ NetworkTrackerConfig with_natnet(truth::natnet::Version version = {4, 1}) {
 }
 
 truth::TrackerUrl natnet_url_of(const Lab& lab, const std::string& body = "/ASTRO") {
-  return truth::tracker_url_in("natnet://127.0.0.1:" + std::to_string(lab.tracker.natnet()->port()) + body);
+  return truth::tracker_url_in(
+      "natnet://127.0.0.1:" + std::to_string(lab.tracker.natnet()->endpoint().port()) + body);
 }
 
 TEST(NetworkTracker, ItsPosesComeToANatNetClientOfEachVersionWithTheTimeOfTheExposure) {
@@ -352,7 +366,7 @@ TEST(NetworkTracker, ItsPosesComeToANatNetClientOfEachVersionWithTheTimeOfTheExp
 TEST(NetworkTracker, ANatNetClientKeepsItselfKnownAndFindsTheServerAgain) {
   auto lab = std::make_unique<Lab>(with_natnet());
   const truth::TrackerUrl url = natnet_url_of(*lab);
-  const std::uint16_t port = lab->tracker.natnet()->port();
+  const std::uint16_t port = lab->tracker.natnet()->endpoint().port();
   truth::NatNetLink link(url);
   microseconds now{0};
   const auto run = [&](microseconds time) {
@@ -430,9 +444,10 @@ TEST(NetworkTracker, ANatNetBodyThatItDoesNotKnowIsNamedWithThoseThatItDoes) {
 
 /// The frames of this server come to the client's other socket, so that the port is no reason for anything.
 TEST(NetworkTracker, ThePortForDataIsNotBlamedWhereFramesCome) {
-  std::optional<net::Socket> taken;
+  net::io_context io;
+  std::optional<net::udp::socket> taken;
   try {
-    taken = net::bind_udp(net::Address::loopback(truth::natnet::kDataPort));
+    taken = net::bind_udp(io, {address_v4::loopback(), truth::natnet::kDataPort});
   } catch (const Error&) {  // by somebody else, which does as well
   }
   Lab lab(with_natnet());
@@ -446,14 +461,16 @@ TEST(NetworkTracker, ThePortForDataIsNotBlamedWhereFramesCome) {
 
 TEST(NetworkTracker, ANatNetServerIgnoresWhoeverHasNotConnectedAndWhatIsNone) {
   Lab lab(with_natnet());
-  const net::Socket stranger = net::connect_udp(lab.tracker.natnet()->address());
+  net::io_context io;
+  const net::udp::endpoint server = lab.tracker.natnet()->endpoint();
+  net::udp::socket stranger = net::connect_udp(io, server);
   for (const Bytes& datagram :
        {Bytes{}, Bytes{1}, Bytes(200, 0xFF), truth::natnet::datagram_of(truth::natnet::Id::request_models),
         truth::natnet::datagram_of(truth::natnet::Id::keep_alive)})
-    net::send(stranger, datagram);
+    net::send_datagram(stranger, datagram, server);
   lab.pass(milliseconds(50));
   EXPECT_EQ(lab.tracker.natnet()->clients(), 0U);
-  EXPECT_FALSE(net::wait_to_read(stranger, milliseconds(0)));
+  EXPECT_FALSE(net::wait_to_read(io, milliseconds(1), stranger));
 }
 
 }  // namespace

@@ -1,20 +1,23 @@
 #include "host/truth/live/natnet_link.hpp"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <array>
+#include <boost/asio/ip/multicast.hpp>
+#include <optional>
 #include <utility>
 
+#include "host/base/network.hpp"
 #include "host/truth/trackers/natnet_frame.hpp"
 
 // The client's side of NatNet: the sense of its datagrams, and its sockets over loopback in virtual time.
 namespace astro::truth {
 namespace {
 
+namespace multicast = boost::asio::ip::multicast;
+using boost::asio::ip::make_address;
 using natnet::Id;
+using net::address_v4;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using testing::ElementsAre;
@@ -112,11 +115,12 @@ TEST(NatNetStream, WithoutANameTakesTheFirstBodyAndTellsOfTheOthers) {
 
 /// A server on loopback whose frames go where a test sends them.
 struct Server {
-  net::Socket socket = net::bind_udp(net::Address::loopback(0));
-  std::optional<net::Address> client;
+  net::io_context io;
+  net::udp::socket socket = net::bind_udp(io, {address_v4::loopback(), 0});
+  std::optional<net::udp::endpoint> client;
   std::vector<Id> asked;
 
-  std::uint16_t port() const { return net::Address::local(socket).port(); }
+  std::uint16_t port() const { return socket.local_endpoint().port(); }
   void work(const Bytes& info) {
     std::array<std::uint8_t, 1024> buffer{};
     while (const auto datagram = net::receive_datagram(socket, buffer)) {
@@ -142,13 +146,13 @@ bool connected(NatNetLink& link, Server& server, const Bytes& info, microseconds
 }
 
 TEST(NatNetLink, TakesFramesFromEitherOfItsTwoSockets) {
-  const std::uint16_t data_port = net::Address::local(net::bind_udp(net::Address::loopback(0))).port();
+  const std::uint16_t data_port = Server().port();  // nobody uses it any more
   Server server;
   NatNetLink link(url_of(server));
   microseconds now{0};
   ASSERT_TRUE(connected(link, server, server_info(false, data_port), now));
   net::send_datagram(server.socket, frame_of({body_at(2, 1)}), *server.client);
-  net::send_datagram(server.socket, frame_of({body_at(2, 2)}), server.client->with_port(data_port));
+  net::send_datagram(server.socket, frame_of({body_at(2, 2)}), {server.client->address(), data_port});
   link.wait(milliseconds(100));
   link.work(now);
   EXPECT_THAT(link.take(), SizeIs(2));
@@ -157,25 +161,22 @@ TEST(NatNetLink, TakesFramesFromEitherOfItsTwoSockets) {
 
 TEST(NatNetLink, AsksEachAddressOfTheHost) {
   Server server;
-  NatNetLink link(url_of(server), {net::Address::all_of("127.0.0.2", server.port()).front(),
-                                   net::Address::loopback(server.port())});
+  NatNetLink link(url_of(server), {make_address("127.0.0.2"), address_v4::loopback()});
   microseconds now{0};
   EXPECT_TRUE(connected(link, server, server_info(), now)) << "within a second, as with one address";
 }
 
 TEST(NatNetLink, JoinsTheGroupThatTheServerNames) {
-  const std::uint16_t data_port = net::Address::local(net::bind_udp(net::Address::loopback(0))).port();
+  const std::uint16_t data_port = Server().port();  // nobody uses it any more
   Server server;
   NatNetLink link(url_of(server));
   microseconds now{0};
   ASSERT_TRUE(connected(link, server, server_info(true, data_port), now));
   EXPECT_EQ(link.way(), "by multicast");
-  const in_addr loopback{htonl(INADDR_LOOPBACK)};  // the frames do not leave this computer
-  const unsigned char hops = 0;
-  ::setsockopt(server.socket.get(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback);
-  ::setsockopt(server.socket.get(), IPPROTO_IP, IP_MULTICAST_TTL, &hops, sizeof hops);
-  net::send_datagram(server.socket, frame_of({body_at(2, 1)}),
-                     net::Address::all_of("239.255.42.99", data_port).front());
+  // The frames do not leave this computer.
+  server.socket.set_option(multicast::outbound_interface(address_v4::loopback()));
+  server.socket.set_option(multicast::hops(0));
+  net::send_datagram(server.socket, frame_of({body_at(2, 1)}), {make_address("239.255.42.99"), data_port});
   link.wait(milliseconds(1000));
   link.work(now);
   EXPECT_THAT(link.take(), SizeIs(1)) << link.why_silent();
@@ -186,7 +187,7 @@ TEST(NatNetLink, WhatComesFromSomebodyElseIsIgnoredAndTold) {
   NatNetLink link(url_of(server));
   microseconds now{0};
   ASSERT_TRUE(connected(link, server, server_info(), now));
-  const net::Socket stranger = net::bind_udp(net::Address::all_of("127.0.0.2", 0).front());
+  net::udp::socket stranger = net::bind_udp(server.io, {make_address("127.0.0.2"), 0});
   net::send_datagram(stranger, frame_of({body_at(2, 1)}), *server.client);
   link.wait(milliseconds(100));
   link.work(now);

@@ -4,8 +4,9 @@
 
 #include <array>
 #include <charconv>
+#include <optional>
 
-#include "host/base/socket.hpp"
+#include "host/base/network.hpp"
 #include "host/truth/trackers/vrpn_tracker.hpp"
 #include "tests/support/base/remarks.hpp"
 
@@ -13,11 +14,17 @@
 namespace astro::truth {
 namespace {
 
+using net::address_v4;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
+net::tcp::acceptor listen(net::io_context& io) { return net::listen_tcp(io, {address_v4::loopback(), 0}); }
+
 /// A port of this computer that nobody listens to.
-std::uint16_t free_port() { return net::Address::local(net::listen_tcp(net::Address::loopback(0))).port(); }
+std::uint16_t free_port() {
+  net::io_context io;
+  return listen(io).local_endpoint().port();
+}
 
 TrackerUrl url_of(std::uint16_t port) {
   return tracker_url_in("vrpn://127.0.0.1:" + std::to_string(port) + "/ASTRO");
@@ -45,7 +52,8 @@ bool work_until(VrpnLink& link, microseconds& now, Done done) {
 
 TEST(VrpnLink, AsksByUdpToBeCalledBackWhereNothingAnswersByTcp) {
   const std::uint16_t port = free_port();
-  const net::Socket server = net::bind_udp(net::Address::loopback(port));
+  net::io_context io;
+  net::udp::socket server = net::bind_udp(io, {address_v4::loopback(), port});
   VrpnLink link(url_of(port));
   microseconds now{0};
   std::array<std::uint8_t, 256> buffer{};
@@ -57,7 +65,8 @@ TEST(VrpnLink, AsksByUdpToBeCalledBackWhereNothingAnswersByTcp) {
   EXPECT_EQ(request.back(), '\0');
   std::uint16_t call_port = 0;
   std::from_chars(request.data() + 10, request.data() + request.size(), call_port);
-  const net::Socket call = net::begin_tcp(asked->from.with_port(call_port));
+  net::tcp::socket call(io);
+  call.connect({asked->from.address(), call_port});
   net::send(call, greeting_and_pose());
   std::vector<Sighting> sightings;
   EXPECT_TRUE(work_until(link, now, [&] {
@@ -66,33 +75,35 @@ TEST(VrpnLink, AsksByUdpToBeCalledBackWhereNothingAnswersByTcp) {
   }));
   EXPECT_EQ(link.way(), "by a call back over TCP");
   Bytes cookie(vrpn::kCookieBytes);
-  ASSERT_TRUE(net::wait_to_read(call, milliseconds(1000)));
+  ASSERT_TRUE(net::wait_to_read(io, milliseconds(1000), call));
   net::receive(call, cookie);
   EXPECT_EQ(cookie, vrpn::cookie());
 }
 
 /// Two addresses of one host; a test's server serves at the last of them only.
-std::vector<net::Address> two_addresses(std::uint16_t port) {
-  return {net::Address::all_of("127.0.0.2", port).front(), net::Address::loopback(port)};
+std::vector<net::address> two_addresses() {
+  return {boost::asio::ip::make_address("127.0.0.2"), address_v4::loopback()};
 }
 
 TEST(VrpnLink, TriesEachAddressOfTheHostByTcpAndThenByACallBack) {
-  net::Socket listener = net::listen_tcp(net::Address::loopback(0));
-  const std::uint16_t port = net::Address::local(listener).port();
-  const net::Socket server = net::bind_udp(net::Address::loopback(port));
+  net::io_context io;
+  net::tcp::acceptor listener = listen(io);
+  const std::uint16_t port = listener.local_endpoint().port();
+  net::udp::socket server = net::bind_udp(io, {address_v4::loopback(), port});
   microseconds now{0};
-  VrpnLink by_tcp(url_of(port), two_addresses(port));
+  VrpnLink by_tcp(url_of(port), two_addresses());
   EXPECT_TRUE(work_until(by_tcp, now, [&] { return net::accept_tcp(listener).has_value(); }));
-  listener = net::Socket();
-  VrpnLink by_call(url_of(port), two_addresses(port));
+  listener.close();
+  VrpnLink by_call(url_of(port), two_addresses());
   std::array<std::uint8_t, 256> buffer{};
   EXPECT_TRUE(work_until(by_call, now, [&] { return net::receive_datagram(server, buffer).has_value(); }));
 }
 
 TEST(VrpnLink, SeveralAddressesThatDoNotAnswerTakeNoLongerThanOne) {
   const std::uint16_t port = free_port();
-  for (std::vector<net::Address> servers : {two_addresses(port), {net::Address::loopback(port)}}) {
-    const net::Socket silent = net::bind_udp(servers.front());
+  net::io_context io;
+  for (std::vector<net::address> servers : {two_addresses(), {address_v4::loopback()}}) {
+    const net::udp::socket silent = net::bind_udp(io, {servers.front(), port});
     VrpnLink link(url_of(port), servers);
     microseconds now{0};
     EXPECT_TRUE(work_until(link, now, [&] { return link.why_silent() != "nothing answers there"; }));
@@ -101,8 +112,9 @@ TEST(VrpnLink, SeveralAddressesThatDoNotAnswerTakeNoLongerThanOne) {
 }
 
 TEST(VrpnLink, WhatSpeaksSomethingElseIsNamedAsSuch) {
-  const net::Socket listener = net::listen_tcp(net::Address::loopback(0));
-  VrpnLink link(url_of(net::Address::local(listener).port()));
+  net::io_context io;
+  net::tcp::acceptor listener = listen(io);
+  VrpnLink link(url_of(listener.local_endpoint().port()));
   microseconds now{0};
   std::optional<net::Accepted> accepted;
   ASSERT_TRUE(work_until(link, now, [&] { return (accepted = net::accept_tcp(listener)).has_value(); }));
@@ -115,8 +127,9 @@ TEST(VrpnLink, WhatSpeaksSomethingElseIsNamedAsSuch) {
 }
 
 TEST(VrpnLink, AServerThatSendsFasterThanWeReadCannotKeepUs) {
-  const net::Socket listener = net::listen_tcp(net::Address::loopback(0));
-  VrpnLink link(url_of(net::Address::local(listener).port()));
+  net::io_context io;
+  net::tcp::acceptor listener = listen(io);
+  VrpnLink link(url_of(listener.local_endpoint().port()));
   microseconds now{0};
   std::optional<net::Accepted> accepted;
   ASSERT_TRUE(work_until(link, now, [&] { return (accepted = net::accept_tcp(listener)).has_value(); }));
