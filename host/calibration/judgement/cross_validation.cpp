@@ -32,8 +32,10 @@ bool contains(std::span<const std::size_t> members, std::size_t run) {
 /// The information of all runs but the members of a group.
 Pool without(const MlFit& fit, std::span<const std::size_t> members) {
   Pool others(fit.fixed(), fit.unknowns().front()[kE]);
-  for (std::size_t i = 0; i < fit.sums().size(); ++i)
+  for (std::size_t i = 0; i < fit.sums().size(); ++i) {
+    others.know(fit.sums()[i].session);
     if (!contains(members, i)) others.add(reduced(fit.sums()[i], fit.fixed(), 0));
+  }
   return others;
 }
 

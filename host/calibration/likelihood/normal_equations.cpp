@@ -71,10 +71,14 @@ std::vector<Reduced> reduced(const InnovationSums& run, std::span<const Innovati
   return out;
 }
 
-void Pool::add(const Reduced& run, double sign) {
-  while (static_cast<int>(sessions_.size()) <= run.session)
+void Pool::know(int session) {
+  while (static_cast<int>(sessions_.size()) <= session)
     sessions_.push_back(
         {SharedInformation::Zero(), SharedVector::Zero(), static_cast<int>(sessions_.size())});
+}
+
+void Pool::add(const Reduced& run, double sign) {
+  know(run.session);
   Reduced& session = sessions_[static_cast<std::size_t>(run.session)];
   session.information += sign * run.information;
   session.gradient += sign * run.gradient;

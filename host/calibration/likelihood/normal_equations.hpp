@@ -47,6 +47,8 @@ class Pool {
   explicit Pool(const FixedParameters& fixed, double e = 0) : fixed_(fixed), e_(e) {}
 
   void add(const Reduced& run) { add(run, 1); }
+  /// Makes room for a session of which there may be no run.
+  void know(int session);
   void take_out(const Reduced& run) { add(run, -1); }
 
   /// The covariance of the factors alone; rows and columns of a fixed e are zero.

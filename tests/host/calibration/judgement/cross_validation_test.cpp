@@ -67,6 +67,22 @@ Verdict verdict_on(const DriveModel& model, const WheelFactors& in_use, int runs
   return cross_validate(drives, in_use, all, options).verdict;
 }
 
+// The lever arm of a session is not known without its only drive, so it is fitted to that drive.
+TEST(CrossValidation, HoldsOutTheOnlyDriveOfASession) {
+  DriveModel model = astro_drive();
+  std::vector<Trajectory> drives = squares(model, 2);
+  model.lever = {-0.05, 0.04, -1};
+  drives.push_back(squares(model, 3)[2]);
+  for (std::size_t i = 0; i < drives.size(); ++i) drives[i].session = i < 2 ? "first day" : "second day";
+  for (int order = 0; order < 2; ++order) {
+    const MlEstimate all = estimate_ml(drives, model.loaded, known_clock());
+    const CrossValidation judged = cross_validate(drives, model.loaded, all, known_clock());
+    EXPECT_EQ(judged.runs.size(), 3U);
+    EXPECT_EQ(judged.verdict, Verdict::better);
+    std::rotate(drives.begin(), drives.begin() + 2, drives.end());
+  }
+}
+
 /// The robot under a slower tracker, because hundreds of drives are calibrated ten times each. Slip decides how much
 /// factors are worth, and it is the same.
 DriveModel slow_tracker() {
