@@ -39,6 +39,7 @@ Remark slip_remark(const RunFit& run) {
 std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
   std::vector<Remark> list;
   for (const Remark& why : estimate.left_out) list.push_back(why.in("left out: "));
+  list.insert(list.end(), estimate.mended.begin(), estimate.mended.end());
   for (const RunFit& run : estimate.runs)
     if (run.outlier) list.push_back(outlier_remark(run));
   for (const RunFit& run : estimate.runs)

@@ -256,6 +256,7 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
     require_observable(prepared, loaded, options.clock_known);
   MlEstimate estimate = estimate_with_what_is_shown(prepared, loaded, options);
   estimate.left_out = prepared.left_out;
+  estimate.mended = prepared.mended;
   return estimate;
 }
 

@@ -111,6 +111,7 @@ struct MlEstimate {
   double spacing_m = 0;
   std::vector<RunFit> runs;
   std::vector<Remark> left_out;              // PreparedRuns::left_out; other useless runs are errors
+  std::vector<Remark> mended;                // PreparedRuns::mended
   std::vector<KindFit> kinds;                // only those that occur, in the order of Motion
   std::optional<CurvatureEffect> curvature;  // nothing if the runs hardly show it
   Eccentricities eccentricities;             // of the wheels; not corrected for

@@ -164,6 +164,7 @@ void Moves::change(const Unknowns& unknowns) {
   Leg leg;
   Moment from = moment(run.truth.front().time_s);
   WheelState was = wheels.at(from.time_s);
+  auto gap = run.gaps.begin();
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
     const Moment begin = from, end = moment(run.truth[i].time_s);
     const double duration_s = end.time_s - begin.time_s;
@@ -178,6 +179,8 @@ void Moves::change(const Unknowns& unknowns) {
       from = to;
       was = is;
     }
+    for (; gap != run.gaps.end() && gap->end_s < end.time_s + kLongestStep_s; ++gap)
+      if (i > 0) leg.unknown_m2 += gap->unknown_m2;
     leg.spent_s[static_cast<std::size_t>(run.motion[i])] += duration_s;
     if (!takes(i)) continue;
     leg.sample = i;
@@ -191,6 +194,7 @@ Moves Moves::joined(const SampleSelection& selection) const {
   Leg leg;
   for (const Leg& part : legs_) {
     if (part.moved) add(leg, part.move);
+    leg.unknown_m2 += part.unknown_m2;
     for (std::size_t motion = 0; motion < leg.spent_s.size(); ++motion)
       leg.spent_s[motion] += part.spent_s[motion];
     if (!out.takes(part.sample)) continue;

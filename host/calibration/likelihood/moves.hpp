@@ -39,6 +39,7 @@ struct Leg {
   std::size_t sample = 0;  // of truth, at its end
   bool moved = false;      // else the wheels stood
   Move move;
+  double unknown_m2 = 0;            // variance of each coordinate by gaps of the odometry (PreparedRun::gaps)
   std::array<double, 4> spent_s{};  // in each Motion, on the robot's clock
 };
 

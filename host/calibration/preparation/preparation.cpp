@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/base/order_statistics.hpp"
@@ -21,8 +23,15 @@ namespace {
 
 constexpr int kFewestSamples = 20;
 constexpr double kLongestPause_s = 3600;
-// A cubic follows a moving robot over shorter gaps of odometry. A standing robot may have longer ones.
-constexpr double kLongestWheelGap_s = 0.3, kWheelGapMotion_m = 0.01;
+// A cubic follows a moving robot over shorter gaps of odometry, or over one and a half of its usual periods. A standing robot
+// may have longer ones.
+constexpr double kLongestWheelGap_s = 0.3, kLongestGapPeriods = 1.6, kWheelGapMotion_m = 0.01;
+// After a gap a robot that went straight ahead is where its wheels say, to a tenth of the way.
+constexpr double kUnknownPart = 0.1;
+// With more of its way in gaps a drive is no recording of one.
+constexpr double kMostInGaps = 0.5;
+// At longer periods the wheels' path is known at their samples far better than between them.
+constexpr double kSlowLog_s = 0.15;
 // A drive with less than both was a push, not a drive.
 constexpr double kShortestDrive_m = 0.2, kSmallestTurn_rad = 0.5;
 constexpr double kLeastCorrelation = 0.5, kLeastLikeness = 0.9;
@@ -66,16 +75,6 @@ void require_wheels(const Trajectory& run) {
     if (!std::isfinite(now.left_m) || !std::isfinite(now.right_m))
       throw Error(run.name + " has odometry that is no number: record it again",
                   PreparationProblem::odometry_not_finite, {run.name});
-    if (i == 0) continue;
-    const WheelSample& before = run.wheels[i - 1];
-    const double moved_m =
-        std::max(std::abs(now.left_m - before.left_m), std::abs(now.right_m - before.right_m));
-    if (now.time_s - before.time_s > kLongestWheelGap_s && moved_m > kWheelGapMotion_m)
-      throw Error(
-          fmt::format("{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m on an unknown "
-                      "path: leave it out, or record it again",
-                      run.name, now.time_s - before.time_s, moved_m),
-          PreparationProblem::odometry_lost, {run.name});
   }
 }
 
@@ -98,6 +97,75 @@ MotionExtent extent_between(const WheelState& a, const WheelState& b, const Whee
   const double left = factors.c_l * (b.left_m - a.left_m), right = factors.c_r * (b.right_m - a.right_m);
   return {std::abs(left + right) / 2, std::abs(right - left) / factors.b_m};
 }
+
+/// The gaps of a drive's odometry. Throws astro::Error if most of the drive is in them.
+std::vector<WheelGap> gaps_of(const Trajectory& run, double wheelbase_m) {
+  const double longest_s = std::max(kLongestWheelGap_s, kLongestGapPeriods * median_period_s(run.wheels));
+  std::vector<WheelGap> gaps;
+  double way_m = 0, in_gaps_m = 0, in_gaps_s = 0;
+  for (std::size_t i = 1; i < run.wheels.size(); ++i) {
+    const WheelSample &before = run.wheels[i - 1], &now = run.wheels[i];
+    const double left_m = now.left_m - before.left_m, right_m = now.right_m - before.right_m;
+    const double moved_m = std::max(std::abs(left_m), std::abs(right_m));
+    way_m += moved_m;
+    if (now.time_s - before.time_s <= longest_s || moved_m <= kWheelGapMotion_m) continue;
+    const double turn_rad = std::abs(right_m - left_m) / wheelbase_m;
+    const double unknown_m = moved_m * std::min(1.0, kUnknownPart + turn_rad / 2);
+    gaps.push_back({before.time_s, now.time_s, unknown_m * unknown_m});
+    in_gaps_m += moved_m;
+    in_gaps_s += now.time_s - before.time_s;
+  }
+  if (in_gaps_m > kMostInGaps * way_m)
+    throw Error(
+        fmt::format("{} lost its odometry for {:.1f} s while the robot moved by {:.2f} m of {:.2f} m on an "
+                    "unknown path: leave it out, or record it again",
+                    run.name, in_gaps_s, in_gaps_m, way_m),
+        PreparationProblem::odometry_lost, {run.name});
+  return gaps;
+}
+
+/// Says that there are gaps, of which only the ends are used.
+Remark why_bridged(const Trajectory& run, std::span<const WheelGap> gaps) {
+  double lost_s = 0;
+  for (const WheelGap& gap : gaps) lost_s += gap.end_s - gap.begin_s;
+  const std::string count = std::to_string(gaps.size()), seconds = fmt::format("{:.1f}", lost_s);
+  return {
+      fmt::format(
+          "{} lost its odometry {} for {} s in all while the robot moved: its heading goes on by the counts "
+          "after it, its place there is taken from the ground truth",
+          run.name, gaps.size() == 1 ? "once" : count + " times", seconds),
+      PreparationProblem::odometry_bridged,
+      {run.name, count, seconds}};
+}
+
+/// Of truth at a high rate, those samples that are next to a sample of a slow log of wheels.
+class NextToWheels {
+ public:
+  explicit NextToWheels(std::span<const WheelSample> wheels) : wheels_(wheels) {}
+
+  /// The truth sample that is nearest to a wheel sample, once it is known; of the samples with this time and those before.
+  std::optional<BodySample> take(const BodySample& sample, double robot_time_s) {
+    while (next_ + 1 < wheels_.size() && std::abs(wheels_[next_ + 1].time_s - robot_time_s) <=
+                                             std::abs(wheels_[next_].time_s - robot_time_s))
+      ++next_;
+    std::optional<BodySample> settled;
+    if (best_ && at_ != next_) settled = std::exchange(best_, {});
+    const double apart_s = std::abs(wheels_[next_].time_s - robot_time_s);
+    if (!best_ || apart_s < apart_s_) {
+      best_ = sample;
+      apart_s_ = apart_s;
+      at_ = next_;
+    }
+    return settled;
+  }
+  const std::optional<BodySample>& last() const { return best_; }
+
+ private:
+  std::span<const WheelSample> wheels_;
+  std::size_t next_ = 0, at_ = 0;
+  double apart_s_ = 0;
+  std::optional<BodySample> best_;
+};
 
 /// The motion of the wheels within half_window_s of a moment. Each end has its own path, because a path finds times near its
 /// last one without a search.
@@ -124,25 +192,37 @@ Motion motion_at(const Around& near, const Around& wide, double time_s, const Wh
   return longer.distance_m > 10 * wheelbase_m * longer.rotation_rad ? Motion::line : Motion::arc;
 }
 
-PreparedRun cropped(const Trajectory& run, const ClockFit& clock, Density density) {
+PreparedRun cropped(const Trajectory& run, const ClockFit& clock, double wheelbase_m, Density density) {
   PreparedRun prepared;
   prepared.source = &run;
   prepared.has_headings = mostly_headings(run.truth);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
+  prepared.gaps = gaps_of(run, wheelbase_m);
+  const double period_s = median_period_s(run.wheels);
   // Slightly less than the wheels' period, so that a sample that is late or early by jitter is not skipped.
-  const double spacing_s = density == Density::all ? 0 : 0.9 * median_period_s(run.wheels);
+  const double spacing_s = density == Density::all ? 0 : 0.9 * period_s;
+  const bool slow = density == Density::independent && period_s > kSlowLog_s;
+  NextToWheels next_to_wheels(run.wheels);
+  auto gap = prepared.gaps.begin();
   double last_s = -std::numeric_limits<double>::infinity();
   for (const BodySample& sample : run.truth) {
     if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
     if (prepared.has_headings && !std::isfinite(sample.theta_rad)) continue;
+    const double u = clock.robot_time_s(sample.time_s, prepared.clock_middle_s);
+    if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
+    while (gap != prepared.gaps.end() && gap->end_s - kMargin_s <= u) ++gap;
+    if (gap != prepared.gaps.end() && gap->begin_s + kMargin_s < u) continue;
+    if (slow) {
+      if (const auto settled = next_to_wheels.take(sample, u)) prepared.truth.push_back(*settled);
+      continue;
+    }
     // Compares the tracker's own times, because the selection of samples must not depend on the estimated
     // clock offset.
     if (sample.time_s - last_s < spacing_s) continue;
     last_s = sample.time_s;
-    const double u = clock.robot_time_s(sample.time_s, prepared.clock_middle_s);
-    if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
     prepared.truth.push_back(sample);
   }
+  if (next_to_wheels.last()) prepared.truth.push_back(*next_to_wheels.last());
   return prepared;
 }
 
@@ -258,7 +338,8 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
       require_clock(run, clock);
       before = clock;
     }
-    PreparedRun ready = cropped(run, clock, density);
+    PreparedRun ready = cropped(run, clock, loaded.b_m, density);
+    if (!ready.gaps.empty()) prepared.mended.push_back(why_bridged(run, ready.gaps));
     const std::vector<WheelState> wheels = wheels_at_truth(ready, clock);
     classify_motion(ready, wheels, clock, loaded);
     ready.path_m = way_of_wheels(wheels);

@@ -13,7 +13,8 @@
 namespace astro::calibration {
 
 /// Why a run cannot be used. Values: its name, if there is one; then the stream (times_missing,
-/// times_run_backwards, times_jump) or the number of samples (too_little_truth).
+/// times_run_backwards, times_jump), the number of samples (too_little_truth), or how many gaps there are and their seconds
+/// (odometry_bridged).
 enum class PreparationProblem {
   no_runs,
   no_odometry,
@@ -23,6 +24,7 @@ enum class PreparationProblem {
   times_jump,
   odometry_not_finite,
   odometry_lost,
+  odometry_bridged,
   too_short,
   mirrored,
   mirrored_or_clockwise,
@@ -48,13 +50,14 @@ struct PreparedRuns {
   /// The reason and the remedy for each run that is left out without harm: a spin during which the positions stand still, so
   /// that they show neither its clock offset nor its rotation.
   std::vector<Remark> left_out;
+  std::vector<Remark> mended;  // what was done to runs that are used
 };
 
 /// The samples of `runs` that the estimator uses, and the offsets of their clocks. `loaded` need only be roughly
 /// right.
 ///
 /// Throws astro::Error naming the run for
-///   no odometry or hardly any truth; odometry lost while the robot moved; a robot that did not move
+///   no odometry or hardly any truth; odometry lost in most of the drive; a robot that did not move
 ///   times that run backwards or jump by an hour; values that are no numbers
 ///   streams that do not overlap, or whose motions have nothing in common
 ///   a drive that repeats itself, recorded so that nothing shows which lap is which

@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+
+#include "host/calibration/judgement/remarks.hpp"
+#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "tests/host/calibration/ml_drives.hpp"
+#include "tests/support/base/remarks.hpp"
+
+// Logs of wheels with gaps, at low rates, or of encoders with few counts give factors with the error that is due.
+namespace astro::calibration {
+namespace {
+
+using simulation::study::derived_seed;
+using simulation::study::DriveModel;
+
+/// How far the factors of several sets are from the truth, in standard errors.
+struct Misses {
+  double largest = 0, squares = 0;
+  int count = 0;
+
+  void take(const MlEstimate& found, const WheelFactors& actual) {
+    const std::array errors{(found.E_d() - actual.c_r / actual.c_l) / found.se.E_d,
+                            (found.scale() - (actual.c_r + actual.c_l) / 2) / found.se.scale,
+                            (found.factors.b_m - actual.b_m) / found.se.b_m};
+    for (const double error : errors) {
+      largest = std::max(largest, std::abs(error));
+      squares += error * error;
+      ++count;
+    }
+  }
+  double mean_square() const { return squares / count; }
+};
+
+constexpr int kSets = 16;
+// Of 48 normal errors one is beyond this in a thousand of such tests. The mean of their squares is 1.3 for whole logs (of four
+// squares), and below 1.75 times that in 999 of 1000 tests (chi-square with 48 degrees of freedom).
+constexpr double kMost = 4.2, kMostMeanSquare = 1.3 * 1.75;
+
+template <class Spoil>
+Misses misses_of(const DriveModel& model, Spoil spoil) {
+  Misses misses;
+  for (int set = 0; set < kSets; ++set) {
+    std::vector<Trajectory> runs = squares(model, 4, 2, derived_seed(kSeed, static_cast<std::uint64_t>(set)));
+    std::mt19937_64 random(derived_seed(kSeed + 1, static_cast<std::uint64_t>(set)));
+    for (Trajectory& run : runs) spoil(run, random);
+    misses.take(estimate_ml(runs, model.loaded), model.actual);
+  }
+  std::printf("largest %.2f standard errors, mean square %.2f\n", misses.largest, misses.mean_square());
+  return misses;
+}
+
+void lose(Trajectory& run, double from_s, double to_s) {
+  std::erase_if(run.wheels,
+                [&](const WheelSample& sample) { return sample.time_s > from_s && sample.time_s < to_s; });
+}
+
+/// Keeps every n-th sample of the wheels.
+void keep_every(Trajectory& run, std::size_t n) {
+  std::vector<WheelSample> kept;
+  for (std::size_t i = 0; i < run.wheels.size(); i += n) kept.push_back(run.wheels[i]);
+  run.wheels = std::move(kept);
+}
+
+TEST(OddLogs, HaveTheErrorOfWholeOnesWithoutAFault) {
+  const Misses misses = misses_of(astro_drive(), [](Trajectory&, std::mt19937_64&) {});
+  EXPECT_LT(misses.mean_square(), kMostMeanSquare);
+}
+
+TEST(OddLogs, GapsOfCountersAreBridged) {
+  for (const double length_s : {0.5, 2.0}) {
+    const Misses misses = misses_of(astro_drive(), [&](Trajectory& run, std::mt19937_64& random) {
+      std::uniform_real_distribution<double> begin_s(run.wheels.front().time_s + 3,
+                                                     run.wheels.back().time_s - 6);
+      for (int gap = 0; gap < 3; ++gap) {
+        const double from_s = begin_s(random);
+        lose(run, from_s, from_s + length_s);
+      }
+    });
+    EXPECT_LT(misses.largest, kMost) << length_s;
+    EXPECT_LT(misses.mean_square(), kMostMeanSquare) << length_s;
+  }
+}
+
+TEST(OddLogs, BridgedGapsAreSaid) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 2);
+  lose(runs[0], 10, 10.6);
+  lose(runs[0], 15, 16);
+  const MlEstimate found = estimate_ml(runs, astro_drive().loaded);
+  EXPECT_THAT(remarks(found, false),
+              testing::Contains(support::Tells(PreparationProblem::odometry_bridged, "run 1", "2",
+                                               testing::StartsWith("1."))));
+}
+
+TEST(OddLogs, AtLowRatesAreUsedWhereTheWheelsAreKnown) {
+  const double period_s =
+      squares(astro_drive(), 1)[0].wheels[1].time_s - squares(astro_drive(), 1)[0].wheels[0].time_s;
+  for (const double slow_s : {0.2, 0.5}) {
+    const auto n = static_cast<std::size_t>(std::lround(slow_s / period_s));
+    const Misses misses =
+        misses_of(astro_drive(), [&](Trajectory& run, std::mt19937_64&) { keep_every(run, n); });
+    EXPECT_LT(misses.largest, kMost) << slow_s;
+    EXPECT_LT(misses.mean_square(), kMostMeanSquare) << slow_s;
+  }
+}
+
+TEST(OddLogs, OfCoarseEncodersHaveTheErrorThatIsDue) {
+  for (const double counts : {12.0, 30.0})
+    for (const std::size_t n : {1U, 5U}) {
+      DriveModel model = astro_drive();
+      model.metres_per_count = std::numbers::pi * 0.066 / counts;
+      const Misses misses = misses_of(model, [&](Trajectory& run, std::mt19937_64&) { keep_every(run, n); });
+      EXPECT_LT(misses.largest, kMost) << counts << " counts in a turn, one of " << n;
+      EXPECT_LT(misses.mean_square(), kMostMeanSquare) << counts << " counts in a turn, one of " << n;
+    }
+}
+
+}  // namespace
+}  // namespace astro::calibration
