@@ -37,7 +37,7 @@ set(ASTRO_LAYERS
   "host/film/camera             : host/base host/film/picture"
   "host/film/paper              : host/base"
   "host/film/picture            : host/base"
-  "host/film/runs               : host/base host/calibration/likelihood host/experiment/analysis host/experiment/files host/film/picture host/film/track host/recording"
+  "host/film/runs               : host/base host/calibration/likelihood host/experiment/analysis host/experiment/files host/film/camera host/film/picture host/film/track host/recording"
   "host/film/track              : host/base host/film/camera host/film/picture"
   "host/formats/cdr             : host/base"
   "host/formats/files           : host/base"

@@ -1,4 +1,4 @@
-#include "host/film/track/film_poses.hpp"
+#include "host/film/camera/film_poses.hpp"
 
 #include <algorithm>
 #include <cmath>

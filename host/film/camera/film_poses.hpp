@@ -5,9 +5,15 @@
 #include <vector>
 
 #include "host/film/camera/scene.hpp"
-#include "host/film/track/film_sightings.hpp"
 
 namespace astro::film {
+
+/// The robot's tag as one picture of a film shows it.
+struct RobotTagSeen {
+  double pts_s = 0;
+  TagCorners corners;
+  double edge_width_px = 0;
+};
 
 /// The pose of the robot's tag in one picture, in the frame of the first floor tag.
 struct FilmPose {

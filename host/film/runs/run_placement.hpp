@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "host/film/track/film_poses.hpp"
+#include "host/film/camera/film_poses.hpp"
 #include "host/recording/run.hpp"
 
 /// Finds where in a film each run is, by how fast the robot turns and drives in both.

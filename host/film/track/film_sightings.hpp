@@ -5,17 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "host/film/camera/film_poses.hpp"
 #include "host/film/track/camera_motion.hpp"
 #include "host/film/track/floor_survey.hpp"
 
 namespace astro::film {
-
-/// The robot's tag in one picture.
-struct RobotTagSeen {
-  double pts_s = 0;
-  TagCorners corners;
-  double edge_width_px = 0;
-};
 
 /// What all pictures of a film show, one after the other.
 struct FilmSightings {

@@ -11,7 +11,7 @@
 #include "host/film/picture/film_info.hpp"
 #include "host/film/track/camera_motion.hpp"
 #include "host/film/track/film_figures.hpp"
-#include "host/film/track/film_poses.hpp"
+#include "host/film/camera/film_poses.hpp"
 #include "host/film/track/film_sightings.hpp"
 
 /// Computes the robot's path from a film that shows a tag on the robot and tags on the floor.

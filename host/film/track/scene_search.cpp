@@ -5,7 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/film/picture/how_to_film.hpp"
-#include "host/film/track/film_poses.hpp"
+#include "host/film/camera/film_poses.hpp"
 
 namespace astro::film {
 namespace {
