@@ -11,7 +11,7 @@
 namespace astro::film {
 namespace {
 
-constexpr double kMostPictures = 40;
+constexpr double kMostKeyPictures = 40;
 constexpr double kStill_px = 4;  // a tag that lies on the floor moves less, in a film whose camera stands
 
 using Sightings = std::map<int, std::vector<TagCorners>>;
@@ -71,7 +71,7 @@ FloorSurvey survey_floor(const std::filesystem::path& film, const FilmInfo& info
   Sightings sightings;
   std::optional<double> first_s, last_s;
   while (stream.next(frame)) {
-    if (last_s && frame.pts_s - *last_s < info.duration_s / kMostPictures) continue;
+    if (last_s && frame.pts_s - *last_s < info.duration_s / kMostKeyPictures) continue;
     last_s = frame.pts_s;
     if (!first_s) first_s = frame.pts_s;
     ++survey.pictures;
