@@ -1,5 +1,5 @@
 // Text that was packed with gzip.
-#include "host/truth/files/packed_text.hpp"
+#include "host/formats/tables/packed_text.hpp"
 
 #include "host/base/error.hpp"
 #include "tests/fuzz/target.hpp"
@@ -11,7 +11,7 @@ namespace astro::fuzz {
 void take(ByteView input) {
   MemorySource source(input);
   try {
-    const Bytes text = truth::unpacked(source, "x.gz");
+    const Bytes text = tables::unpacked(source, "x.gz");
     require(text.size() <= 4 * input.size() + (std::size_t{56} << 20), "a text is no longer than allowed");
   } catch (const Error&) {
   }

@@ -15,9 +15,13 @@
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
+#include "host/formats/tables/stated_columns.hpp"
 #include "host/import/drives/robot_geometry.hpp"
+#include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "host/truth/files/body_choice.hpp"
+#include "host/truth/files/track_problem.hpp"
+#include "host/truth/floor/floor_path.hpp"
 
 namespace astro::commands {
 namespace {
@@ -76,7 +80,10 @@ ImportChoices choices_of(const ImportOptions& options) {
   choices.wheels.table = options.table;
   choices.wheels.joints = {options.wheels_topic, choices.geometry.joints};
   choices.wheels.exchanged = options.swap_wheels;
+  choices.wheels.reversed = options.reverse_wheels;
+  choices.drives_backward = options.drives_backward;
   choices.truth.body = options.body;
+  choices.truth.columns = options.truth_columns;
   choices.truth.poses.topic = options.truth_topic;
   if (!options.frames.empty()) {
     choices.truth.poses.frame = options.frames[0];
@@ -97,23 +104,41 @@ constexpr Advice kImportAdvice[] = {
      ": check the unit of the wheels, and whether their rows are travel --per-interval"},
     {importing::ImportProblem::leaps,
      "; cut the recording there, or check the unit of the wheels and whether their rows are travel "
-     "--per-interval"},
+     "--per-interval; a counter that starts again at its end needs --counter-range"},
     {importing::ImportProblem::below_origin,
      ": give --swap-wheels if left and right are exchanged, or --up with the axis of the tracker that points "
      "up"},
     {importing::ImportProblem::turns_against_wheels,
      ": give --swap-wheels if left and right are exchanged, or --up with the axis of the tracker that points "
      "up"},
+    {importing::ImportProblem::encoders_reversed,
+     ": give --reverse-wheels; or, if the robot did drive backward, --swap-wheels if left and right are "
+     "exchanged, or "
+     "--up with the axis of the tracker that points up"},
+    {importing::ImportProblem::drives_backward,
+     ": if it drove forward, give --swap-wheels and --reverse-wheels, or the other of the two if one is given; if it did "
+     "drive backward, --drives-backward"},
+    {importing::ImportProblem::per_interval_likely, ": give --per-interval"},
     {importing::ImportProblem::turns_against_stated_up,
      ": give --swap-wheels if left and right are exchanged, or another axis to --up"},
     {importing::WheelProblem::columns_unclear,
-     ": describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
-     "..._m; - for one that is not used)"},
+     ": say what they are with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
+     "..._m, "
+     "..._rad_s, ..._rpm, ..._m_s; - for one that is not used)"},
+    {importing::WheelTableProblem::time_unit_unknown, ": say it with --wheel-columns"},
+    {importing::CounterProblem::range_unknown, ": give the range with --counter-range"},
+    {importing::CounterProblem::beyond_range, ": give another --counter-range"},
+    {tables::StatedColumnsProblem::no_such_name, ": name columns that it has, or all of them in their order"},
+    {truth::TrackProblem::no_columns, ": say what they are with --truth-columns"},
+    {truth::TrackProblem::no_header,
+     "; or say what they are with --truth-columns, such as time_s,x_m,y_m,theta_rad"},
+    {truth::TrackProblem::time_unit_unknown, ": say it with --truth-columns"},
     {importing::WheelProblem::joints_unclear, ": name the wheels with --joints LEFT,RIGHT"},
     {importing::WheelProblem::topic_unclear, ": name one with --wheels-topic"},
     {importing::WheelProblem::poses_unclear,
      ": name one with --truth-topic, and its frames with --truth-frames PARENT,CHILD"},
     {importing::WheelProblem::controller_unclear, ": name one with --controller"},
+    {truth::FloorProblem::no_up_axis, "; or give the axis that points up with --up"},
     {truth::BodyProblem::unknown, ": name one of them with --body"},
 };
 
@@ -133,12 +158,28 @@ void add_drive_files(console::Command command, ImportOptions& options) {
       .one_each_time();
 }
 
-void add_table_choices(console::Command command, importing::WheelTable& table) {
+void add_table_choices(console::Command command, ImportOptions& options) {
+  importing::WheelTable& table = options.table;
   command
-      .add_option("--wheel-columns", table.columns,
-                  "the columns of a CSV without names, as\ntime_s,left_counts,right_counts (or _rad, _m)")
+      .add_option(
+          "--wheel-columns", table.columns,
+          "what a table's columns are: all in their order, as\ntime_s,left_counts,right_counts (also _rad, "
+          "_m,\n"
+          "_rad_s, _rpm, _m_s), or some by their names, as\nstamp=time_ms,encA=left_counts,encB=right_counts")
       .type_name("NAMES");
   command.add_flag("--per-interval", table.per_interval, "each row is the travel since the row before");
+  command
+      .add_option(
+          "--counter-range", table.counter_range,
+          "how many counts a counter has before it starts\nagain, as 65536 (default: found from the data)")
+      .type_name("COUNTS")
+      .check(console::between(2, 1e15, "counts"));
+  command
+      .add_option(
+          "--truth-columns", options.truth_columns,
+          "the same for ground truth: time_s,x_m,y_m, and\ntheta_rad, or roll_rad,pitch_rad,yaw_rad, or "
+          "qx,qy,\nqz,qw")
+      .type_name("NAMES");
 }
 
 void add_bag_choices(console::Command command, ImportOptions& options) {
@@ -186,6 +227,9 @@ void add_geometry_choices(console::Command command, ImportOptions& options) {
   command.add_option("--wheelbase", options.wheelbase_m, "as the robot's odometry takes it, m")
       .check(console::between(0.02, 10, "m"));
   command.add_flag("--swap-wheels", options.swap_wheels, "left and right are exchanged in the files");
+  command.add_flag("--reverse-wheels", options.reverse_wheels,
+                   "both encoders count backward when the robot drives\nforward");
+  command.add_flag("--drives-backward", options.drives_backward, "the robot did drive backward");
 }
 
 void add_session_flag(console::Command command, bool& session_per_folder) {
@@ -197,7 +241,7 @@ void add_session_flag(console::Command command, bool& session_per_folder) {
 
 void add_import(console::Command command, ImportOptions& options) {
   add_drive_files(command, options);
-  add_table_choices(command, options.table);
+  add_table_choices(command, options);
   add_bag_choices(command, options);
   add_body_choice(command, options);
   add_tracker_choices(command, options);

@@ -15,9 +15,9 @@ namespace astro::commands {
 struct ImportOptions {
   std::vector<std::filesystem::path> wheels, truth;  // of the same length
   importing::WheelTable table;
-  std::string wheels_topic, truth_topic, body, up, unit, mirrored = "auto", controller;
+  std::string wheels_topic, truth_topic, truth_columns, body, up, unit, mirrored = "auto", controller;
   std::vector<std::string> joints, frames;
-  bool swap_wheels = false, session_per_folder = false;
+  bool swap_wheels = false, reverse_wheels = false, drives_backward = false, session_per_folder = false;
   std::filesystem::path robot_file;
   FilmOptions film_figures;  // of truths that are films
   std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
@@ -32,7 +32,7 @@ struct ImportOptions {
 void add_drive_files(console::Command command, ImportOptions& options);
 
 /// Options for reading files of these kinds. What they leave open is recognised, or an error asks for it.
-void add_table_choices(console::Command command, importing::WheelTable& table);
+void add_table_choices(console::Command command, ImportOptions& options);
 void add_bag_choices(console::Command command, ImportOptions& options);
 void add_body_choice(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);

@@ -60,6 +60,8 @@ std::vector<Choice> choices_in(const ImportOptions& options) {
   const auto always = [](const ImportOptions&) { return true; };
   return {{"--wheel-columns", !options.table.columns.empty(), tables, kNoTable},
           {"--per-interval", options.table.per_interval, tables, kNoTable},
+          {"--counter-range", options.table.counter_range.has_value(), tables, kNoTable},
+          {"--truth-columns", !options.truth_columns.empty(), takes, "no file of ground truth is a table"},
           {"--wheels-topic", !options.wheels_topic.empty(), bags_of_wheels, kNoBagOfWheels},
           {"--joints", !options.joints.empty(), any_with_joints, kNoBagOfWheels},
           {"--truth-topic", !options.truth_topic.empty(), bags_of_poses, kNoBagOfPoses},
@@ -74,7 +76,9 @@ std::vector<Choice> choices_in(const ImportOptions& options) {
           {"--wheel-diameter", options.wheel_diameter_m.has_value(), always, ""},
           {"--counts-per-turn", options.counts_per_turn.has_value(), always, ""},
           {"--wheelbase", options.wheelbase_m.has_value(), always, ""},
-          {"--swap-wheels", options.swap_wheels, always, ""}};
+          {"--swap-wheels", options.swap_wheels, always, ""},
+          {"--reverse-wheels", options.reverse_wheels, always, ""},
+          {"--drives-backward", options.drives_backward, always, ""}};
 }
 
 }  // namespace

@@ -264,7 +264,7 @@ void add_inspect(console::Command app) {
   const console::Command command =
       app.add_subcommand("inspect", "say what is in a file of a tracker, a robot or a ROS 2 bag");
   command.add_option("file", options->file, "the file, or the folder of a bag").required();
-  add_table_choices(command, options->choices.table);
+  add_table_choices(command, options->choices);
   command
       .add_option("--truth-topic", options->choices.truth_topic,
                   "bags: look at the poses of this topic: lost, gaps,\nup axis, noise at rest")
@@ -283,7 +283,8 @@ void add_inspect(console::Command app) {
     choices.wheels = choices.truth = {options->file};
     refuse_unused_choices(choices);
     const importing::FileInspection found =
-        importing::inspect_file(options->file, choices.table, {choices.truth_topic, "", ""});
+        importing::inspect_file(options->file, choices.table,
+                                {.columns = choices.truth_columns, .poses = {choices.truth_topic, "", ""}});
     if (!found.wheels && (choices.table.per_interval || !choices.table.columns.empty()))
       throw console::WrongUsage(
           "--wheel-columns and --per-interval do not apply here: this is no table of wheels");

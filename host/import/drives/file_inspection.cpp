@@ -10,8 +10,8 @@
 #include "host/formats/files/bag_files.hpp"
 #include "host/formats/messages/joint_state.hpp"
 #include "host/formats/messages/ros_messages.hpp"
+#include "host/formats/tables/text_file.hpp"
 #include "host/import/drives/bag_truth.hpp"
-#include "host/import/drives/text_file.hpp"
 #include "host/import/drives/wheel_file.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/recording/sample_messages.hpp"
@@ -101,23 +101,24 @@ bool is_settings(const fs::path& path) {
 
 /// Nothing if the file is not a recording of a tracker. Its text is released before the caller reads it as
 /// another kind.
-std::optional<truth::Inspection> inspect_tracker(const fs::path& path) {
-  const Bytes bytes = text_of_file(path);
+std::optional<truth::Inspection> inspect_tracker(const fs::path& path, const std::string& columns) {
+  const Bytes bytes = tables::text_of_file(path);
   const std::string_view text = as_text(bytes);
-  if (truth::recognise(text) == truth::FileKind::unknown) return std::nullopt;
-  return truth::inspect(text, path.string());
+  if (columns.empty() && truth::recognise(text) == truth::FileKind::unknown) return std::nullopt;
+  return truth::inspect(text, path.string(), columns);
 }
 
-FileInspection inspect_text(const fs::path& path, const WheelTable& table) {
+FileInspection inspect_text(const fs::path& path, const WheelTable& table, const std::string& truth_columns) {
   FileInspection out;
-  if (table.columns.empty()) out.tracker = inspect_tracker(path);
+  if (table.columns.empty()) out.tracker = inspect_tracker(path, truth_columns);
   if (!out.tracker) out.wheels = inspect_wheels(read_wheel_table(path, table));
   return out;
 }
 
 }  // namespace
 
-FileInspection inspect_file(const fs::path& path, const WheelTable& table, const PoseSelection& topic) {
+FileInspection inspect_file(const fs::path& path, const WheelTable& table, const TruthSelection& truth) {
+  const PoseSelection& topic = truth.poses;
   FileInspection out;
   if (bag::is_bag(path) && topic.topic.empty()) {
     out.bag = inspect_bag(path);
@@ -128,7 +129,7 @@ FileInspection inspect_file(const fs::path& path, const WheelTable& table, const
   } else if (is_settings(path)) {
     out.robot = read_robot_file(path);
   } else {
-    out = inspect_text(path, table);
+    out = inspect_text(path, table, truth.columns);
   }
   return out;
 }

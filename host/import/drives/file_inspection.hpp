@@ -7,6 +7,7 @@
 
 #include "host/formats/files/bag.hpp"
 #include "host/import/drives/robot_geometry.hpp"
+#include "host/import/drives/truth_file.hpp"
 #include "host/import/wheels/joint_names.hpp"
 #include "host/import/wheels/pose_topics.hpp"
 #include "host/import/wheels/wheel_csv.hpp"
@@ -46,12 +47,12 @@ struct FileInspection {
 };
 
 /// Recognises the kind of a file by its content, but that of settings (.toml, .yaml, .yml) by its extension.
-/// `table` describes wheels without column names. `topic` selects the one stream of poses of a bag that is
-/// inspected as a tracker's recording, which takes 72 bytes of memory for each pose; without it a bag of any
-/// size is read in constant memory.
+/// `table` describes wheels without column names, `truth.columns` a table of ground truth. `truth.poses` selects the one
+/// stream of poses of a bag that is inspected as a tracker's recording, which takes 72 bytes of memory for each
+/// pose; without it a bag of any size is read in constant memory.
 ///
 /// Throws astro::Error naming the file if it is none of these, and what the readers throw.
 FileInspection inspect_file(const std::filesystem::path& path, const WheelTable& table = {},
-                            const PoseSelection& topic = {});
+                            const TruthSelection& truth = {});
 
 }  // namespace astro::importing

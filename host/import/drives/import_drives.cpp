@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/formats/files/bag.hpp"
 #include "host/formats/messages/text_message.hpp"
+#include "host/import/drives/wheel_doubts.hpp"
 #include "host/import/drives/wheel_run.hpp"
 #include "host/import/wheels/described_wheels.hpp"
 
@@ -169,8 +170,14 @@ std::vector<truth::WheelMotion> motion_of(const std::vector<recording::OdometryS
   return motion;
 }
 
-void settle_direction(const std::string& name, const truth::FloorFindings& findings,
-                      std::vector<Remark>& remarks) {
+/// Whether by its wheels a robot drove backward, which hardly any does for long.
+bool drove_backward(const recording::Run& run) {
+  constexpr double kForTheMostPart = -0.3;  // spins and flickering counts go either way
+  return forward_share(run) < kForTheMostPart;
+}
+
+void settle_direction(const std::string& name, const recording::Run& run,
+                      const truth::FloorFindings& findings, std::vector<Remark>& remarks) {
   constexpr double kClear_m = 0.03;  // more than the usual height of a tracker's origin above its floor
   const std::string distance = fmt::format("{:.2f}", -findings.height_m);
   // If the axis points down and the wheels are exchanged, both turn alike.
@@ -183,6 +190,9 @@ void settle_direction(const std::string& name, const truth::FloorFindings& findi
         ImportProblem::below_origin, {name, distance});
   if (!findings.turns_against_wheels) return;
   const std::string fact = "the wheels turn the robot the other way than the ground truth";
+  if (findings.height_m <= kClear_m && drove_backward(run))
+    throw Error(fact + ", and they count backward, so both encoders seem to be reversed",
+                ImportProblem::encoders_reversed, {name});
   if (findings.up_given) throw Error(fact, ImportProblem::turns_against_stated_up, {name});
   if (findings.height_m > kClear_m) {
     remarks.push_back({"the wheels show that the tracker's axis that seems to point up points down"});
@@ -210,8 +220,8 @@ std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& f
 }
 
 /// Combines wheels and truth. If the wheels turn the robot in the direction opposite to the truth, one of
-/// three things is wrong, and the motion alone cannot show which: the up axis is reversed, left and right
-/// wheel are exchanged, or the recording is a mirror image. Trackers have their origin on the floor, so a
+/// four things is wrong, and the motion alone cannot show which: the up axis is reversed, left and right
+/// wheel are exchanged, both encoders are reversed (they count backward then), or the recording is a mirror image. Trackers have their origin on the floor, so a
 /// body clearly below the origin shows that the axis is reversed. Otherwise nothing is guessed, because with
 /// exchanged wheels the right wheel would get the left factor. If both turn alike but the body is below the
 /// origin, two of the three may be wrong and hide each other, so the axis must be given.
@@ -230,7 +240,8 @@ PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const Import
   drive.run.truth = std::move(floor.samples);
   drive.report.floor = std::move(floor.findings);
   add(drive.report.floor.remarks);
-  settle_direction(name, drive.report.floor, all);
+  require_turning_wheels(name, drive.run, drive.report.floor);
+  settle_direction(name, drive.run, drive.report.floor, all);
   drive.report.summary += summary_of(truth, drive.report.floor);
   return drive;
 }
@@ -271,15 +282,48 @@ ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoic
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
   refuse_twins(files);
   Geometry geometry(choices.geometry);
-  ImportedDrives drives;
-  drives.set.names = names_of(files);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    PairedDrive drive = paired(drives.set.names[i], files[i], choices, geometry);
-    refuse_copy(drive.run, drives.set.runs, drives.set.names[i], drives.set.names);
-    drives.set.runs.push_back(std::move(drive.run));
-    drives.reports.push_back(std::move(drive.report));
+  const std::vector<std::string> names = names_of(files);
+  std::vector<std::optional<PairedDrive>> drives(files.size());
+  std::optional<Error> no_up_axis;
+  for (std::size_t i = 0; i < files.size(); ++i) try {
+      drives[i] = paired(names[i], files[i], choices, geometry);
+    } catch (const Error& error) {
+      if (error.kind() != truth::FloorProblem::no_up_axis) throw;
+      if (!no_up_axis) no_up_axis = error;
+    }
+  if (no_up_axis) {
+    // A drive on a line does not show which axis is up; the others of the same tracker do.
+    const auto shows =
+        std::find_if(drives.begin(), drives.end(), [](const auto& drive) { return drive.has_value(); });
+    if (shows == drives.end()) throw Error(*no_up_axis);
+    ImportChoices as_others = choices;
+    as_others.floor.up = (*shows)->report.floor.up;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (drives[i]) continue;
+      drives[i] = paired(names[i], files[i], as_others, geometry);
+      const std::string axis = truth::axis_text(*as_others.floor.up),
+                        from = names[static_cast<std::size_t>(shows - drives.begin())];
+      drives[i]->report.remarks.push_back(
+          {"it does not show which axis points up; " + axis + " is taken, as in " + from,
+           ImportProblem::up_axis_of_other,
+           {names[i], axis, from}});
+    }
   }
-  return drives;
+  // Wheels that are exchanged and reversed turn the robot as the truth does. Nothing but their direction shows it.
+  const bool backward =
+      std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drove_backward(drive->run); });
+  if (backward && !choices.drives_backward && !files.empty())
+    throw Error("by its wheels the robot drove backward in " +
+                    (files.size() == 1 ? "'" + names.front() + "'" : "all drives"),
+                ImportProblem::drives_backward, {names.front()});
+  ImportedDrives all;
+  all.set.names = names;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    refuse_copy(drives[i]->run, all.set.runs, names[i], names);
+    all.set.runs.push_back(std::move(drives[i]->run));
+    all.reports.push_back(std::move(drives[i]->report));
+  }
+  return all;
 }
 
 }  // namespace astro::importing

@@ -26,6 +26,7 @@ struct ImportChoices {
   TruthSelection truth;
   RobotGeometry geometry;
   truth::FloorChoices floor;
+  bool drives_backward = false;  // the robot did drive backward
 };
 
 /// What was found in the files of a drive.
@@ -44,7 +45,8 @@ struct ImportedDrives {
 
 /// Throws astro::Error
 ///   if two pairs have the same file of wheels, or one drive is a copy of another;
-///   naming the drive, if wheels and truth turn in opposite directions, if the body is below the origin along
+///   naming the drive, if a wheel cannot be what it is said to be (wheel_doubts.hpp), or if by its wheels the robot drove
+///   backward in all drives; if wheels and truth turn in opposite directions, if the body is below the origin along
 ///   an axis that was not given, if a wheel turns 100 times between two samples, or if it leaps faster than
 ///   20 m/s;
 ///   naming the bag, if a description in it has the wheels but not their sizes;

@@ -33,7 +33,14 @@ enum class ImportProblem {
   leaps,
   below_origin,
   turns_against_wheels,
-  turns_against_stated_up
+  turns_against_stated_up,
+  up_axis_of_other,
+  wheels_stand,
+  wheel_stands,
+  wheels_equal,
+  per_interval_likely,
+  encoders_reversed,
+  drives_backward
 };
 
 /// The wheels of any robot as its own program describes them: nominal sizes, and the factors by which its

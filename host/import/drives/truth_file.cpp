@@ -2,9 +2,9 @@
 
 #include "host/base/bytes.hpp"
 #include "host/formats/files/bag.hpp"
+#include "host/formats/tables/text_file.hpp"
+#include "host/formats/tables/units.hpp"
 #include "host/import/drives/bag_truth.hpp"
-#include "host/import/drives/text_file.hpp"
-#include "host/truth/files/rotations.hpp"
 #include "host/truth/files/tracker_file.hpp"
 
 namespace astro::importing {
@@ -12,13 +12,13 @@ namespace {
 
 truth::BodyTrack read(const std::filesystem::path& path, const TruthSelection& selection) {
   if (bag::is_bag(path)) return track_in_bag(path, selection.poses);
-  const Bytes text = text_of_file(path);
-  return truth::read_track(as_text(text), path.string(), selection.body);
+  const Bytes text = tables::text_of_file(path);
+  return truth::read_track(as_text(text), path.string(), selection.body, selection.columns);
 }
 
 void change_unit(truth::BodyTrack& track, const std::string& unit) {
-  const double stated = truth::metres_per(track.facts.length_unit).value_or(1);
-  const double factor = truth::metres_per(unit).value() / stated;
+  const double stated = tables::metres_per(track.facts.length_unit).value_or(1);
+  const double factor = tables::metres_per(unit).value() / stated;
   for (truth::TrackedPose& sample : track.samples) {
     sample.pose.x_m *= factor;
     sample.pose.y_m *= factor;

@@ -11,9 +11,10 @@ namespace astro::importing {
 
 /// What a person states about files of ground truth; all else is recognised.
 struct TruthSelection {
-  std::string body;         // in text recordings of trackers
-  PoseSelection poses;      // in bags
-  std::string length_unit;  // "m", "cm", "mm": overrides the unit in the file; "": does not
+  std::string body = {};         // in text recordings of trackers
+  std::string columns = {};      // of a table (host/formats/tables/stated_columns.hpp); "": as its names say
+  PoseSelection poses = {};      // in bags
+  std::string length_unit = {};  // "m", "cm", "mm": overrides the unit in the file; "": does not
 };
 
 struct ImportedTruth {

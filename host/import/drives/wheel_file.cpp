@@ -4,11 +4,10 @@
 #include <utility>
 
 #include "common/fixed/wrapping.hpp"
-#include "host/base/byte_source.hpp"
 #include "host/formats/files/bag.hpp"
 #include "host/formats/files/bag_files.hpp"
 #include "host/formats/messages/ros_messages.hpp"
-#include "host/import/drives/text_file.hpp"
+#include "host/formats/tables/text_file.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/recording/sample_messages.hpp"
 
@@ -57,19 +56,16 @@ bool is_own_recording(const fs::path& path) {
 }
 
 WheelTrack read_wheel_table(const fs::path& path, const WheelTable& table) {
-  if (!is_packed_text(path)) {
-    FileSource file(path);
-    return wheels_in_table(file, path.string(), table);
-  }
-  const Bytes text = text_of_file(path);
-  MemorySource source(text);
-  return wheels_in_table(source, path.string(), table);
+  const Bytes text = tables::text_of_file(path);
+  return wheels_in_table(as_text(text), path.string(), table);
 }
 
 ImportedWheels read_wheels(const fs::path& path, const WheelSelection& selection) {
   ImportedWheels wheels = read(path, selection);
   if (selection.exchanged)
     for (WheelSample& sample : wheels.track.samples) std::swap(sample.left, sample.right);
+  if (selection.reversed)
+    for (WheelSample& sample : wheels.track.samples) sample = {sample.time_ns, -sample.left, -sample.right};
   return wheels;
 }
 

@@ -16,6 +16,7 @@ struct WheelSelection {
   WheelTable table;        // of tables
   JointSelection joints;   // of bags
   bool exchanged = false;  // the file has left and right exchanged
+  bool reversed = false;   // both encoders count backward when the robot drives forward
 };
 
 struct ImportedWheels {
@@ -28,7 +29,7 @@ struct ImportedWheels {
 /// bag or compressed counts as any other bag.
 bool is_own_recording(const std::filesystem::path& path);
 
-/// The wheels in a table, also compressed with gzip. Throws as wheels_in_table and text_of_file do.
+/// The wheels in a table, also packed with gzip or in UTF-16. Throws as wheels_in_table and tables::text_of_file do.
 WheelTrack read_wheel_table(const std::filesystem::path& path, const WheelTable& table);
 
 /// The wheels in a table, in a bag, or in a recording of this project; the content shows which it is. Throws

@@ -1,23 +1,27 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "host/import/wheels/wheel_track.hpp"
 
 namespace astro::importing {
 
-/// What is wrong with a wheel's counter. Values: the file, "left" or "right", the counts before and after,
-/// and the time in seconds.
-enum class CounterProblem { starts_again };
+/// What is wrong with a wheel's counter. Values: the file, "left" or "right"; for starts_again the counts before and after, and
+/// the time in seconds, for begins_again only the file and the time; for range_unknown the least and the greatest number of counts that its range may have; for
+/// beyond_range the value and the range.
+enum class CounterProblem { starts_again, begins_again, range_unknown, beyond_range };
 
-/// Makes counters and angles continuous that start again at the end of their range: counts of 16 or 32 bits,
-/// signed or not, and angles in [0, 2 pi) or [-pi, pi). A wheel is taken to wrap if all its values are in
-/// such a range and it jumps by more than half of the range at least once. Such a wheel must move less than
-/// half the range between two samples. Adds a remark for each wheel that wraps. Metres are left as they are.
+/// Makes counters and angles continuous that start again at the end of their range: counts of 8, 12, 16, 24 or 32 bits,
+/// signed or not, or of any other number of counts; and angles in [0, 2 pi) or [-pi, pi). A wheel is taken to wrap if all its
+/// values are in such a range and it jumps by more than half of the range at least once; in a range of 8, 12 or 24 bits, or of
+/// no power of two, only if it comes to both ends each time. Such a wheel must move less than half the range between two
+/// samples. Adds a remark for each wheel that wraps. Metres are left as they are.
 ///
-/// Errors  astro::Error with `name` and the time if a jump is neither a wrap nor motion: both ways of reading
-///         it are more than four times as long and as fast as any other step of this wheel. The counter was
-///         restarted then.
-void unwrap(WheelTrack& track, const std::string& name);
+/// `range`  how many different counts there are, if somebody knows.
+/// Errors   astro::Error with `name` and the time if a jump is neither a wrap nor motion: both ways of reading
+///          it are more than four times as long and as fast as any other step of this wheel. The counter was
+///          restarted then. Another one if it wraps in a range that cannot be told from the data, or leaves `range`.
+void unwrap(WheelTrack& track, const std::string& name, std::optional<double> range = {});
 
 }  // namespace astro::importing

@@ -9,6 +9,7 @@
 #include "host/formats/messages/joint_state.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/sample_limit.hpp"
+#include "host/import/wheels/speeds.hpp"
 #include "host/import/wheels/stamp_count.hpp"
 #include "host/import/wheels/time_order.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
@@ -126,24 +127,15 @@ class JointWheels {
     (positions ? track_.samples : velocities_).push_back(sample);
   }
 
-  void integrate() {
-    remark("the joints have no positions; their velocities were integrated");
+  void integrate_speeds() {
     order_by_time(velocities_, topic_, track_.remarks);
-    WheelSample sum;
-    for (std::size_t i = 0; i < velocities_.size(); ++i) {
-      const WheelSample& at = velocities_[i];
-      const WheelSample& before = velocities_[i == 0 ? 0 : i - 1];
-      const double half_s = 0.5e-9 * static_cast<double>(at.time_ns - before.time_ns);
-      sum = {at.time_ns, sum.left + half_s * (at.left + before.left),
-             sum.right + half_s * (at.right + before.right)};
-      track_.samples.push_back(sum);
-    }
+    integrate(velocities_, track_);
   }
 
   void finish(const bag::BagReport& report) {
     for (const std::string& warning : report.warnings) remark(warning);
     if (track_.samples.empty() && !velocities_.empty()) {
-      integrate();
+      integrate_speeds();
     } else {
       order_by_time(track_.samples, topic_, track_.remarks);
       unwrap(track_, path_.string() + ": " + topic_);

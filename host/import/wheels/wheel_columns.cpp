@@ -1,119 +1,241 @@
 #include "host/import/wheels/wheel_columns.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <vector>
+#include <fmt/format.h>
 
-#include "host/base/text/degrees.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "common/base/side.hpp"
+#include "host/formats/tables/column_name.hpp"
+#include "host/import/wheels/unclear_choice.hpp"
 
 namespace astro::importing {
 namespace {
 
-std::vector<std::string> words_in(std::string_view name) {
-  std::vector<std::string> words;
-  bool inside = false;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool letter = std::isalnum(byte) != 0;
-    if (letter && !inside) words.emplace_back();
-    if (letter) words.back() += static_cast<char>(std::tolower(byte));
-    inside = letter;
+using tables::ColumnName;
+using tables::Quantity;
+
+/// The side that a word names: "left", "leftwheel", "l", "wl", "encl", "fl", "lf".
+std::optional<Side> side_of(const std::string& word) {
+  const bool left = word.find("left") != std::string::npos, right = word.find("right") != std::string::npos;
+  if (left != right) return left ? Side::left : Side::right;
+  for (const std::string_view front :
+       {"",      "w",     "v",     "m",      "e",   "d",     "q",     "enc", "encoder",
+        "tick",  "ticks", "count", "counts", "pos", "wheel", "motor", "phi", "th",
+        "theta", "omega", "f",     "r",      "b",   "front", "rear",  "back"}) {
+    if (word == std::string(front) + "l") return Side::left;
+    if (word == std::string(front) + "r") return Side::right;
   }
-  return words;
+  for (const std::string_view end :
+       {"wheel", "enc", "encoder", "ticks", "motor", "w", "f", "r", "b", "front", "rear"}) {
+    if (word == "l" + std::string(end)) return Side::left;
+    if (word == "r" + std::string(end)) return Side::right;
+  }
+  return std::nullopt;
 }
 
-bool has(const std::vector<std::string>& words, std::initializer_list<std::string_view> any) {
-  return std::ranges::any_of(
-      words, [&](const std::string& word) { return std::ranges::find(any, word) != any.end(); });
+/// The side that a name shows; nothing if it shows none, or both. "rr" and "rl" are rear wheels, so the last letter counts.
+std::optional<Side> side_of(const ColumnName& name) {
+  std::optional<Side> side;
+  for (const std::string& word : name.words) {
+    const auto one = side_of(word);
+    if (one && side && one != side) return std::nullopt;
+    if (one) side = one;
+  }
+  return side;
 }
 
-struct TravelUnit {
-  std::string_view word;
-  WheelUnit unit;
-  double scale;
+bool is_of_no_use(const ColumnName& name) {
+  return name.has({"cmd",   "command",   "commanded",   "target", "setpoint", "desired", "goal",
+                   "ref",   "reference", "pwm",         "duty",   "current",  "amps",    "voltage",
+                   "volt",  "volts",     "torque",      "effort", "error",    "err",     "acc",
+                   "accel", "temp",      "temperature", "power",  "requested"});
+}
+
+/// What a column holds, by its name.
+struct Wheel {
+  std::size_t column = 0;
+  Side side = Side::left;
+  Quantity quantity = Quantity::counts;
+  double to_si = 1;
+  bool per_interval = false;
+  bool sure = true;  // its unit is stated, or its name leaves no other
+
+  bool same_kind(const Wheel& other) const {
+    return quantity == other.quantity && to_si == other.to_si && per_interval == other.per_interval;
+  }
 };
 
-constexpr TravelUnit kTravelUnits[] = {{"counts", WheelUnit::counts, 1},
-                                       {"count", WheelUnit::counts, 1},
-                                       {"ticks", WheelUnit::counts, 1},
-                                       {"tick", WheelUnit::counts, 1},
-                                       {"pulses", WheelUnit::counts, 1},
-                                       {"steps", WheelUnit::counts, 1},
-                                       {"rad", WheelUnit::radians, 1},
-                                       {"radians", WheelUnit::radians, 1},
-                                       {"deg", WheelUnit::radians, radians(1)},
-                                       {"degrees", WheelUnit::radians, radians(1)},
-                                       {"m", WheelUnit::metres, 1},
-                                       {"metres", WheelUnit::metres, 1},
-                                       {"meters", WheelUnit::metres, 1},
-                                       {"cm", WheelUnit::metres, 0.01},
-                                       {"mm", WheelUnit::metres, 0.001}};
-
-const TravelUnit* travel_unit(const std::string& word) {
-  const auto* found = std::ranges::find(kTravelUnits, word, &TravelUnit::word);
-  return found == std::end(kTravelUnits) ? nullptr : found;
+std::optional<Wheel> wheel_named(const ColumnName& name, std::size_t column) {
+  const auto side = side_of(name);
+  if (!side || is_of_no_use(name)) return std::nullopt;
+  Wheel wheel{column, *side};
+  wheel.per_interval = name.has({"delta", "diff", "increment", "interval"});
+  if (name.unit) {
+    wheel.quantity = name.unit->quantity;
+    wheel.to_si = name.unit->to_si;
+    return wheel;
+  }
+  if (!name.unit_text.empty()) return std::nullopt;  // volts, amperes, or what nobody knows
+  const bool counts = std::any_of(name.words.begin(), name.words.end(), [](const std::string& word) {
+    for (const std::string_view counter : {"enc", "tick", "count", "pulse"})
+      if (word.starts_with(counter)) return true;
+    return false;
+  });
+  wheel.sure = counts;
+  if (name.has({"vel", "velocity", "speed", "omega", "w", "v"}) && !counts)
+    wheel.quantity = Quantity::angular_speed;
+  return wheel;
 }
 
-std::int64_t time_unit_ns(const std::string& word) {
-  if (word == "s" || word == "sec" || word == "seconds") return 1'000'000'000;
-  if (word == "ms") return 1'000'000;
-  if (word == "us") return 1'000;
-  return word == "ns" ? 1 : 0;
+bool is_travel(Quantity quantity) {
+  return quantity == Quantity::counts || quantity == Quantity::angle || quantity == Quantity::length;
 }
 
-/// The columns found so far; a second column of the same kind makes them unclear.
-struct Finder {
-  WheelColumns columns;
-  std::optional<std::size_t> time, left, right;
-  const TravelUnit* unit = nullptr;
-  bool unclear = false;
+/// Columns of one kind, with as many on the left as on the right.
+struct Group {
+  std::vector<Wheel> wheels;
 
-  void take(std::size_t at, const std::vector<std::string>& words) {
-    if (words.size() < 2) return;
-    const bool to_left = has(words, {"left", "l"}), to_right = has(words, {"right", "r"});
-    if (to_left != to_right) return wheel(at, words, to_left ? left : right);
-    if (const std::int64_t unit_ns = time_unit_ns(words.back());
-        unit_ns > 0 && has(words, {"time", "stamp", "t", "timestamp"}))
-      return set(time, at, [&] { columns.time_unit_ns = unit_ns; });
+  std::vector<std::size_t> of(Side side) const {
+    std::vector<std::size_t> columns;
+    for (const Wheel& wheel : wheels)
+      if (wheel.side == side) columns.push_back(wheel.column);
+    return columns;
   }
-
-  template <class Found>
-  void set(std::optional<std::size_t>& place, std::size_t at, Found found) {
-    unclear = unclear || place.has_value();
-    place = at;
-    found();
+  bool is_complete() const {
+    return !of(Side::left).empty() && of(Side::left).size() == of(Side::right).size();
   }
+};
 
-  void wheel(std::size_t at, std::vector<std::string> words, std::optional<std::size_t>& place) {
-    bool interval = has(words, {"delta"});
-    if (words.size() > 2 && words.back() == "interval" && words[words.size() - 2] == "per") {
-      interval = true;
-      words.resize(words.size() - 2);
+std::vector<Group> groups_of(const std::vector<Wheel>& wheels) {
+  std::vector<Group> groups;
+  for (const Wheel& wheel : wheels) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& one) {
+      return one.wheels.front().same_kind(wheel) && one.wheels.front().sure == wheel.sure;
+    });
+    if (group == groups.end())
+      groups.push_back({{wheel}});
+    else
+      group->wheels.push_back(wheel);
+  }
+  return groups;
+}
+
+/// Travel as counts is better than as angles, because it is exact, and any travel is better than a speed.
+int rank_of(const Wheel& wheel) {
+  constexpr std::array kOrder{Quantity::counts,       Quantity::angle,         Quantity::length,
+                              Quantity::counts_speed, Quantity::angular_speed, Quantity::speed};
+  const auto at = std::find(kOrder.begin(), kOrder.end(), wheel.quantity) - kOrder.begin();
+  return static_cast<int>(at) + (wheel.sure ? 0 : 10) + (wheel.per_interval ? 1 : 0);
+}
+
+bool are_whole_numbers(tables::Table& table, const std::vector<std::size_t>& columns) {
+  constexpr std::size_t kRowsLookedAt = 2000;
+  table.rewind();
+  bool whole = true, any = false;
+  for (std::size_t row = 0; whole && row < kRowsLookedAt && table.next(); ++row)
+    for (const std::size_t column : columns) {
+      const auto value = tables::cell_number(table.cell(column), table.separator());
+      if (!value) continue;
+      any = true;
+      whole = whole && *value == std::floor(*value) &&
+              table.cell(column).find_first_of(".,eE") == std::string_view::npos;
     }
-    const TravelUnit* found = travel_unit(words.back());
-    if (found == nullptr) return;
-    const bool same = unit == nullptr || (unit->unit == found->unit && unit->scale == found->scale &&
-                                          columns.per_interval == interval);
-    unclear = unclear || !same;
-    unit = found;
-    columns.per_interval = interval;
-    set(place, at, [] {});
+  table.rewind();
+  return whole && any;
+}
+
+WheelUnit unit_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::angle:
+    case Quantity::angular_speed:
+      return WheelUnit::radians;
+    case Quantity::length:
+    case Quantity::speed:
+      return WheelUnit::metres;
+    default:
+      return WheelUnit::counts;
   }
-};
+}
+
+[[noreturn]] void refuse(const tables::Table& table, const std::vector<std::string>& names,
+                         const std::string& why) {
+  std::vector<std::string> shown;
+  for (const std::string& name : names)
+    if (shown.size() < 40) shown.push_back(tables::cut_cell(name));
+  throw UnclearChoice(fmt::format("{}: {}; the columns are {}", table.rows().file(), why, listed(shown)),
+                      shown, WheelProblem::columns_unclear);
+}
+
+std::string quoted(const std::vector<std::string>& names, std::size_t column) {
+  return "'" + tables::cut_cell(names[column]) + "'";
+}
 
 }  // namespace
 
-std::optional<WheelColumns> wheel_columns(std::span<const std::string_view> names) {
-  Finder finder;
-  for (std::size_t i = 0; i < names.size(); ++i) finder.take(i, words_in(names[i]));
-  if (finder.unclear || !finder.time || !finder.left || !finder.right) return std::nullopt;
-  WheelColumns columns = finder.columns;
-  columns.time = *finder.time;
-  columns.left = *finder.left;
-  columns.right = *finder.right;
-  columns.unit = finder.unit->unit;
-  columns.scale = finder.unit->scale;
-  return columns;
+WheelColumns wheel_columns(const std::vector<std::string>& names, tables::Table& table) {
+  if (names.empty()) {
+    table.next();
+    refuse(table, {table.cells().begin(), table.cells().end()},
+           fmt::format("there are no names above its {} columns", table.columns()));
+  }
+  WheelColumns out;
+  std::vector<Wheel> wheels;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const auto time = tables::time_name(names[i])) {
+      out.time.take(i, *time);
+      continue;
+    }
+    if (const auto wheel = wheel_named(tables::column_name(names[i]), i)) wheels.push_back(*wheel);
+  }
+  if (!out.time.at) refuse(table, names, "no column is named as a time");
+  std::vector<Group> groups = groups_of(wheels);
+  std::erase_if(groups, [](const Group& group) { return !group.is_complete(); });
+  if (groups.empty()) {
+    const auto has = [&](Side side) {
+      return std::any_of(wheels.begin(), wheels.end(), [&](const Wheel& one) { return one.side == side; });
+    };
+    refuse(table, names,
+           has(Side::left) == has(Side::right)
+               ? has(Side::left) ? "the columns of the left and the right wheel are of different kinds"
+                                 : "no columns are named as the left and the right wheel"
+               : fmt::format("no column is named as the {} wheel", has(Side::left) ? "right" : "left"));
+  }
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+    return rank_of(a.wheels.front()) < rank_of(b.wheels.front());
+  });
+  const Group& chosen = groups.front();
+  const Wheel& kind = chosen.wheels.front();
+  out.left = chosen.of(Side::left);
+  out.right = chosen.of(Side::right);
+  if (out.left.size() > 3)
+    refuse(table, names, fmt::format("{} columns are named as a left wheel", out.left.size()));
+  out.speeds = !is_travel(kind.quantity);
+  out.per_interval = kind.per_interval && !out.speeds;
+  out.unit = unit_of(kind.quantity);
+  out.scale = kind.to_si;
+  if (!kind.sure) {
+    std::vector<std::size_t> columns = out.left;
+    columns.insert(columns.end(), out.right.begin(), out.right.end());
+    if (out.speeds)
+      refuse(table, names,
+             quoted(names, out.left.front()) + " does not say its unit: rad/s, rpm and m/s are possible");
+    if (!are_whole_numbers(table, columns))
+      refuse(table, names,
+             quoted(names, out.left.front()) + " does not say its unit: counts, rad and m are possible");
+    out.remarks.push_back(
+        {fmt::format("{} holds whole numbers, which are taken as counts", quoted(names, out.left.front())),
+         WheelRemark::counts_assumed,
+         {names[out.left.front()]}});
+  }
+  if (out.left.size() > 1)
+    out.remarks.push_back(
+        {fmt::format("the robot has {} wheels on each side; their means are taken", out.left.size()),
+         WheelRemark::means_of_sides,
+         {std::to_string(out.left.size())}});
+  return out;
 }
 
 }  // namespace astro::importing

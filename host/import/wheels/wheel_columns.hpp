@@ -1,31 +1,36 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
+#include "host/formats/tables/table.hpp"
+#include "host/formats/tables/time_column.hpp"
 #include "host/import/wheels/wheel_track.hpp"
 
 namespace astro::importing {
 
 /// Which columns of a table hold the time and the wheels, and in which units.
 struct WheelColumns {
-  std::size_t time = 0, left = 0, right = 0;  // from 0
-  std::int64_t time_unit_ns = 0;              // 1'000'000'000 for seconds
+  tables::TimeColumns time;
+  std::vector<std::size_t> left, right;  // one of each, or those of a robot with several wheels on a side
   WheelUnit unit = WheelUnit::counts;
-  double scale = 1;           // of a value to radians, metres or counts
+  double scale = 1;           // of a value to radians, metres or counts, or these in a second
   bool per_interval = false;  // each row is the travel since the row before
-
-  bool operator==(const WheelColumns&) const = default;
+  bool speeds = false;        // each row is the speed at its time
+  std::vector<Remark> remarks;
 };
 
-/// The columns with these names. A name consists of words and a unit at its end, in any case and with any
-/// separators: "time_s", "Time (ms)", "stamp_ns"; "left_counts" (also ticks, pulses, steps), "Right wheel
-/// [rad]", "left_deg", "left_m", "left_mm". With the word "delta" or "per_interval" the values are travel per
-/// interval. A column with a name of another kind is not used. Nothing if one of the three columns is missing
-/// or not unique, or if the wheels have different units.
-std::optional<WheelColumns> wheel_columns(std::span<const std::string_view> names);
+/// The columns with these names, which are of `table` or were stated about it.
+///
+/// Sides       left, right, l, r; words with them (leftWheel, wl, encR); FL, FR, RL, RR and front and rear for four wheels
+/// Quantities  by the unit (host/formats/tables/units.hpp): counts, angles, travel, or speeds, if there is none of these;
+///             "delta", "per_interval": travel per interval. Encoders without a unit count; other names without one are
+///             counts if all cells are whole numbers.
+/// Left out    what was commanded (cmd, target, ...), and currents, voltages and the like.
+///
+/// Errors  UnclearChoice (unclear_choice.hpp) with all names, in a sentence that says what is missing, or which column could
+///         be what.
+WheelColumns wheel_columns(const std::vector<std::string>& names, tables::Table& table);
 
 }  // namespace astro::importing

@@ -3,98 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/base/order_statistics.hpp"
-#include "host/base/text/trimmed.hpp"
+#include "host/formats/tables/stated_columns.hpp"
+#include "host/formats/tables/table.hpp"
+#include "host/formats/tables/time_column.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
-#include "host/import/wheels/time_text.hpp"
+#include "host/import/wheels/restarts.hpp"
+#include "host/import/wheels/speeds.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "host/import/wheels/wheel_columns.hpp"
 
 namespace astro::importing {
 namespace {
-
-constexpr std::size_t kMostCells = 1000;
-
-[[noreturn]] void refuse_line(const std::string& name, int line, const std::string& what,
-                              WheelTableProblem problem, const std::vector<std::string>& cell = {}) {
-  std::vector<std::string> values{name, std::to_string(line)};
-  values.insert(values.end(), cell.begin(), cell.end());
-  throw Error(fmt::format("{}, line {}: {}", name, line, what), problem, std::move(values));
-}
-
-/// Reads the lines of a text file of any size, without their line ends (LF or CRLF) and a byte order mark.
-class LineReader {
- public:
-  LineReader(ByteSource& file, std::string name) : file_(file), name_(std::move(name)) {}
-
-  /// The next line; nothing after the last one. The text is valid until the next call. Throws astro::Error
-  /// naming the file and the line if a line has more than 64 KiB or a NUL byte.
-  std::optional<std::string_view> next();
-  int line() const { return line_; }  // of the last one, from 1
-
- private:
-  ByteSource& file_;
-  std::string name_;
-  std::uint64_t at_ = 0;
-  int line_ = 0;
-};
-
-std::optional<std::string_view> LineReader::next() {
-  constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 10;
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (at_ >= file_.size()) return std::nullopt;
-  ++line_;
-  const auto count = static_cast<std::size_t>(std::min(file_.size() - at_, kMostBytes));
-  std::string_view text = as_text(file_.read(at_, count));
-  const std::size_t end = text.find('\n');
-  if (end == std::string_view::npos && count == kMostBytes)
-    refuse_line(name_, line_, "the line has more than 65536 characters", WheelTableProblem::line_too_long);
-  at_ += end == std::string_view::npos ? count : end + 1;
-  text = text.substr(0, end);
-  if (std::memchr(text.data(), 0, text.size()) != nullptr)
-    refuse_line(name_, line_, "this is not text", WheelTableProblem::not_text);
-  if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
-  if (line_ == 1 && text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  return text;
-}
-
-/// Splits a line at the separator; several blanks count as one.
-void split(std::string_view line, char separator, std::vector<std::string_view>& cells) {
-  cells.clear();
-  while (cells.size() < kMostCells) {
-    if (separator == ' ') line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-    const std::size_t end = line.find(separator);
-    cells.push_back(trimmed(line.substr(0, end), " \""));
-    if (end == std::string_view::npos) break;
-    line.remove_prefix(end + 1);
-  }
-  if (separator == ' ' && cells.size() > 1 && cells.back().empty()) cells.pop_back();
-}
-
-char separator_of(std::string_view line) {
-  for (const char separator : {'\t', ';', ','})
-    if (line.find(separator) != std::string_view::npos) return separator;
-  return ' ';
-}
-
-std::optional<double> number(std::string_view cell) {
-  if (cell.starts_with('+')) cell.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 struct LostRows {
   int steps = 0;              // in which rows are missing
@@ -151,26 +81,31 @@ std::optional<LostRows> find_lost_rows(std::span<const WheelSample> sums) {
   return lost;
 }
 
-class Table {
+/// Reads one pair of wheels for each pair of columns, and joins them at the end.
+class WheelRows {
  public:
-  Table(ByteSource& file, const std::string& name, const WheelTable& table)
-      : lines_(file, name), name_(name), given_(table) {
-    const auto by_size = static_cast<std::size_t>(kBytesPerByte * static_cast<double>(file.size()));
-    most_rows_ = (kFreeBytes + by_size) / kRowBytes;
+  WheelRows(std::string_view text, const std::string& name, const WheelTable& given)
+      : table_(text, name),
+        name_(name),
+        given_(given),
+        columns_(wheel_columns(tables::names_with(given.columns, table_), table_)),
+        times_(columns_.time, format(), table_.separator()),
+        pairs_(columns_.left.size()) {
+    table_.require_names();
+    columns_.per_interval = (columns_.per_interval || given.per_interval) && !columns_.speeds;
+    const auto by_size = static_cast<std::size_t>(kBytesPerByte * static_cast<double>(text.size()));
+    most_rows_ = (kFreeBytes + by_size) / (kRowBytes * pairs_.size());
   }
 
   WheelTrack read() {
-    while (const auto line = lines_.next()) {
-      if (line->find_first_not_of(" \t,;") == std::string_view::npos || line->front() == '#') continue;
-      if (separator_ == '\0') {
-        begin(*line);
-      } else {
-        split(*line, separator_, cells_);
-        row();
-      }
-    }
-    finish();
-    return std::move(track_);
+    while (table_.next()) row();
+    if (pairs_.front().size() < 2)
+      refuse_line("the table ends with fewer than two rows of wheels", WheelTableProblem::too_few_rows);
+    std::vector<WheelTrack> tracks;
+    for (std::vector<WheelSample>& samples : pairs_) tracks.push_back(track_of(std::move(samples)));
+    WheelTrack track = joined(std::move(tracks));
+    add_remarks(track.remarks);
+    return track;
   }
 
  private:
@@ -179,106 +114,154 @@ class Table {
   static constexpr std::size_t kRowBytes = 80, kFreeBytes = std::size_t{56} << 20;
   static constexpr double kBytesPerByte = 3.9;
 
-  /// Takes the first line that is not empty: the names of the columns, or a row if the names are given.
-  void begin(std::string_view line) {
-    separator_ = separator_of(line);
-    split(line, separator_, cells_);
-    choose_columns();
-    if (given_.columns.empty()) return;
-    // The line holds names although they are given if none of the three cells is a number.
-    for (const std::size_t at : {columns_.time, columns_.left, columns_.right})
-      if (number(cell(at))) return row();
+  [[noreturn]] void refuse_line(const std::string& what, WheelTableProblem problem) const {
+    table_.rows().refuse(what, problem);
   }
-
-  void choose_columns() {
-    std::vector<std::string_view> names = cells_;
-    if (!given_.columns.empty()) split(given_.columns, ',', names);
-    const auto columns = wheel_columns(names);
-    if (!columns) {
-      const std::vector<std::string> found(names.begin(), names.end());
-      throw UnclearChoice(
-          name_ + ": the columns do not tell time, left and right wheel with their units: " + listed(found),
-          found, WheelProblem::columns_unclear);
-    }
-    columns_ = *columns;
-    columns_.per_interval = columns_.per_interval || given_.per_interval;
-    track_.unit = columns_.unit;
-  }
-
-  std::string_view cell(std::size_t at) const { return at < cells_.size() ? cells_[at] : std::string_view(); }
 
   [[noreturn]] void refuse_cell(std::size_t at, const std::string& what, WheelTableProblem problem) const {
-    const bool comma = separator_ != ',' && cell(at).find(',') != std::string_view::npos;
-    const std::string column = std::to_string(at + 1), text(cell(at));
-    refuse_line(name_, lines_.line(),
-                fmt::format("column {}: '{}' {}{}", column, text, what,
-                            comma ? "; write it with a decimal point" : ""),
-                problem, {column, text});
+    const std::string_view cell = table_.cell(at);
+    const bool either = table_.separator() == ',' && cell.find(',') != std::string_view::npos;
+    table_.rows().refuse(static_cast<int>(at) + 1,
+                         tables::shown_cell(cell) + ' ' + what +
+                             (either ? ": its comma may be a decimal comma, or group the digits" : ""),
+                         problem, {tables::cut_cell(cell)});
   }
 
-  double travel(std::size_t at) const {
-    const auto value = number(cell(at));
+  tables::TimeFormat format() {
+    const std::size_t at = *columns_.time.at;
+    const auto found = tables::time_format(table_, columns_.time);
+    if (!found) {
+      table_.next();
+      if (tables::cell_number(table_.cell(at), table_.separator()))
+        throw Error(
+            fmt::format("{}, column {}: the times do not show their unit: s, ms, us and ns are possible",
+                        name_, at + 1),
+            WheelTableProblem::time_unit_unknown, {name_, std::to_string(at + 1)});
+      table_.cells().empty()
+          ? refuse_line("the table ends with fewer than two rows of wheels", WheelTableProblem::too_few_rows)
+          : refuse_cell(at, "is not a time", WheelTableProblem::not_a_time);
+    }
+    if (!columns_.time.power && found->kind == tables::TimeKind::number) {
+      const std::string unit(tables::unit_text(found->power));
+      columns_.remarks.push_back({"the unit of the time is not stated: " + unit + " is assumed",
+                                  WheelRemark::time_unit_assumed,
+                                  {unit}});
+    }
+    return *found;
+  }
+
+  double value(std::size_t at) const {
+    const auto value = tables::cell_number(table_.cell(at), table_.separator());
     if (!value) refuse_cell(at, "is not a number", WheelTableProblem::not_a_number);
     return *value * columns_.scale;
   }
 
+  bool is_incomplete() const {
+    bool empty = table_.cell(*columns_.time.at).empty();
+    for (const std::size_t at : columns_.left) empty = empty || table_.cell(at).empty();
+    for (const std::size_t at : columns_.right) empty = empty || table_.cell(at).empty();
+    return empty;
+  }
+
   void row() {
-    if (cell(columns_.time).empty() || cell(columns_.left).empty() || cell(columns_.right).empty()) {
+    if (is_incomplete()) {
       // Travel that is missing in one row of travel per interval is missing in all positions after it.
       if (columns_.per_interval)
         refuse_line(
-            name_, lines_.line(),
             "a cell is empty, and travel per interval cannot be left out: give every column a cell, and "
             "write numbers with a decimal point",
             WheelTableProblem::cell_empty);
       ++incomplete_;
       return;
     }
-    const auto time_ns = time_in(cell(columns_.time), columns_.time_unit_ns);
-    if (!time_ns) refuse_cell(columns_.time, "is not a time", WheelTableProblem::not_a_time);
-    WheelSample sample{*time_ns, travel(columns_.left), travel(columns_.right)};
-    if (!track_.samples.empty()) {
-      const WheelSample& before = track_.samples.back();
-      if (sample.time_ns < before.time_ns)
-        refuse_line(name_, lines_.line(), "the time is before that of the row above: sort the rows",
-                    WheelTableProblem::times_fall);
-      if (columns_.per_interval) {
-        sample.left += before.left;
-        sample.right += before.right;
-      }
-      if (sample.time_ns == before.time_ns) {
-        ++repeated_;
-        if (columns_.per_interval) track_.samples.back() = sample;
-        return;
-      }
-    }
-    if (track_.samples.size() >= most_rows_)
-      refuse_line(name_, lines_.line(),
-                  "the table has more rows than can be held: split it into one file for each run",
+    const auto time_ns = times_.read(table_);
+    if (!time_ns) refuse_cell(*columns_.time.at, "is not a time", WheelTableProblem::not_a_time);
+    const std::vector<WheelSample>& first = pairs_.front();
+    if (!first.empty() && *time_ns < first.back().time_ns)
+      refuse_line("the time is before that of the row above: sort the rows", WheelTableProblem::times_fall);
+    const bool repeated = !first.empty() && *time_ns == first.back().time_ns;
+    if (repeated) ++repeated_;
+    if (!repeated && first.size() >= most_rows_)
+      refuse_line("the table has more rows than can be held: split it into one file for each run",
                   WheelTableProblem::too_many_rows);
-    track_.samples.push_back(sample);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      std::vector<WheelSample>& samples = pairs_[i];
+      WheelSample sample{*time_ns, value(columns_.left[i]), value(columns_.right[i])};
+      if (columns_.per_interval && !samples.empty()) {
+        sample.left += samples.back().left;
+        sample.right += samples.back().right;
+      }
+      if (!repeated)
+        samples.push_back(sample);
+      else if (columns_.per_interval)
+        samples.back() = sample;
+    }
   }
 
-  void finish() {
-    if (track_.samples.size() < 2)
-      refuse_line(name_, std::max(lines_.line(), 1), "the table ends with fewer than two rows of wheels",
-                  WheelTableProblem::too_few_rows);
-    columns_.per_interval ? refuse_lost_rows() : unwrap(track_, name_);
+  WheelTrack track_of(std::vector<WheelSample> samples) const {
+    WheelTrack track;
+    track.unit = columns_.unit;
+    if (columns_.speeds) {
+      integrate(samples, track);
+      return track;
+    }
+    track.samples = std::move(samples);
+    if (columns_.per_interval) {
+      refuse_lost_rows(track.samples);
+    } else {
+      join_restarts(track, name_);
+      unwrap(track, name_, given_.counter_range);
+    }
+    return track;
+  }
+
+  /// The means of the sides of several pairs of wheels.
+  static WheelTrack joined(std::vector<WheelTrack> tracks) {
+    WheelTrack all = std::move(tracks.front());
+    if (tracks.size() == 1) return all;
+    const double count = static_cast<double>(tracks.size());
+    for (const auto& [wheel, side] :
+         {std::pair{&WheelSample::left, "left"}, std::pair{&WheelSample::right, "right"}}) {
+      const auto travel = [at = wheel](const WheelTrack& track) {
+        return track.samples.back().*at - track.samples.front().*at;
+      };
+      double least = travel(all), most = least;
+      for (std::size_t i = 1; i < tracks.size(); ++i) {
+        least = std::min(least, travel(tracks[i]));
+        most = std::max(most, travel(tracks[i]));
+        for (std::size_t k = 0; k < all.samples.size(); ++k)
+          all.samples[k].*wheel += tracks[i].samples[k].*wheel;
+      }
+      for (WheelSample& sample : all.samples) sample.*wheel /= count;
+      const double whole = std::max(std::abs(least), std::abs(most));
+      const std::string percent = fmt::format("{:.2g}", whole > 0 ? 100 * (most - least) / whole : 0);
+      all.remarks.push_back(
+          {fmt::format("the wheels of the {} side differ by {} % of their travel", side, percent),
+           WheelRemark::sides_differ,
+           {side, percent}});
+    }
+    for (std::size_t i = 1; i < tracks.size(); ++i)
+      all.remarks.insert(all.remarks.end(), tracks[i].remarks.begin(), tracks[i].remarks.end());
+    return all;
+  }
+
+  void add_remarks(std::vector<Remark>& remarks) const {
+    remarks.insert(remarks.begin(), columns_.remarks.begin(), columns_.remarks.end());
     if (incomplete_ > 0)
-      track_.remarks.push_back(
+      remarks.push_back(
           {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out",
            WheelTableProblem::rows_incomplete,
            {name_, std::to_string(incomplete_)}});
     if (repeated_ > 0)
-      track_.remarks.push_back(
+      remarks.push_back(
           {name_ + " has " + std::to_string(repeated_) + " rows that repeat the time of the row above",
            WheelTableProblem::times_repeated,
            {name_, std::to_string(repeated_)}});
   }
 
-  void refuse_lost_rows() const {
+  void refuse_lost_rows(std::span<const WheelSample> samples) const {
     constexpr double kHarmless = 1e-4;  // of the travel: a tenth of the accuracy of calibrations
-    const auto lost = find_lost_rows(track_.samples);
+    const auto lost = find_lost_rows(samples);
     if (!lost || lost->part < kHarmless) return;
     const std::string places = std::to_string(lost->steps),
                       first_s = fmt::format("{:.3f}", 1e-9 * static_cast<double>(lost->first_ns)),
@@ -292,20 +275,19 @@ class Table {
         WheelTableProblem::rows_lost, {name_, places, first_s, percent});
   }
 
-  LineReader lines_;
+  tables::Table table_;
   const std::string& name_;
   const WheelTable& given_;
-  char separator_ = '\0';
-  std::vector<std::string_view> cells_;
   WheelColumns columns_;
+  tables::TimeReader times_;
+  std::vector<std::vector<WheelSample>> pairs_;
   std::size_t most_rows_ = 0, incomplete_ = 0, repeated_ = 0;
-  WheelTrack track_;
 };
 
 }  // namespace
 
-WheelTrack wheels_in_table(ByteSource& file, const std::string& name, const WheelTable& table) {
-  return Table(file, name, table).read();
+WheelTrack wheels_in_table(std::string_view text, const std::string& name, const WheelTable& table) {
+  return WheelRows(text, name, table).read();
 }
 
 }  // namespace astro::importing

@@ -22,6 +22,7 @@ enum class FileKind : std::uint8_t {
   motive,       // OptiTrack Motive, a table with a column for each value
   motive_rows,  // Motive before 1.7, a word at the head of each row; not read
   vicon,        // Vicon Tracker, Nexus or Shogun
+  qualisys,     // Qualisys Track Manager, TSV
   tum,          // seconds, position, quaternion with w last
   euroc,        // nanoseconds, position, quaternion with w first
   plain,        // names with units in the first row

@@ -1,7 +1,6 @@
 #include "host/truth/files/file_source.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -9,11 +8,11 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/files.hpp"
-#include "host/base/text/csv_table.hpp"
-#include "host/base/text/degrees.hpp"
-#include "host/base/text/numbers.hpp"
 #include "host/base/utc.hpp"
+#include "host/formats/tables/column_name.hpp"
+#include "host/formats/tables/table.hpp"
+#include "host/formats/tables/text_file.hpp"
+#include "host/formats/tables/time_column.hpp"
 #include "host/truth/source/plausibility.hpp"
 
 namespace astro::truth {
@@ -22,36 +21,33 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Column {
-  std::size_t index;
-  double scale;
+  std::size_t at;
+  double to_si;
 };
 
-std::optional<Column> find(const CsvRow& header, const std::string& si, const std::string& other,
-                           double scale) {
-  for (std::size_t i = 0; i < header.cells.size(); ++i) {
-    if (header.cells[i] == si) return Column{i, 1};
-    if (header.cells[i] == other) return Column{i, scale};
+/// The column whose name has one of these words, and a unit of the quantity; nothing if there is none.
+std::optional<Column> find(const std::vector<std::string>& names,
+                           std::initializer_list<std::string_view> words, tables::Quantity quantity) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const tables::ColumnName name = tables::column_name(names[i]);
+    if (name.has(words) && name.unit && name.unit->quantity == quantity) return Column{i, name.unit->to_si};
   }
   return std::nullopt;
 }
 
-double value(const CsvRow& row, const Column& column, const std::string& name) {
-  const std::string& cell = row.cells[column.index];
-  const auto number = number_in(cell);
-  if (!number || !std::isfinite(*number))
-    refuse(name, row.line, "'" + cell + "' is no number", TruthFileProblem::not_a_number, {cell});
-  return *number * column.scale;
+double value(const tables::Table& table, const Column& column) {
+  const std::string_view cell = table.cell(column.at);
+  const auto number = tables::cell_number(cell, table.separator());
+  if (!number)
+    table.rows().refuse(static_cast<int>(column.at) + 1, tables::shown_cell(cell) + " is no number",
+                        TruthFileProblem::not_a_number, {tables::cut_cell(cell)});
+  return *number * column.to_si;
 }
 
-/// A column of times: any name that begins with t, time or timestamp, perhaps followed by a unit. Only the
-/// ratios of the times matter, so the unit does not.
-std::optional<Column> find_time(const CsvRow& header) {
-  for (std::size_t i = 0; i < header.cells.size(); ++i) {
-    std::string name = header.cells[i];
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::string stem = name.substr(0, name.find_first_of("_ [("));
-    if (stem == "t" || stem == "time" || stem == "timestamp" || stem == "stamp") return Column{i, 1};
-  }
+/// A column of times. Only the ratios of the times matter, so the unit does not.
+std::optional<Column> find_time(const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (tables::time_name(names[i])) return Column{i, 1};
   return std::nullopt;
 }
 
@@ -67,44 +63,44 @@ struct Poses {
   }
 };
 
-std::vector<double> parts_of(const CsvTable& table, const std::string& name) {
-  const auto time = find_time(table.header);
-  std::vector<double> times;
-  for (const CsvRow& row : table.rows) {
-    times.push_back(time ? value(row, *time, name) : static_cast<double>(times.size()));
-    if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
-      refuse(name, row.line,
-             "column " + table.header.cells[time->index] +
-                 ": the time does not increase; sort the rows, or leave the column out",
-             TruthFileProblem::time_not_increasing);
-  }
-  const double first = times.front(), last = times.back();
-  for (double& one : times) one = (one - first) / (last - first);
-  return times;
+/// The time of a row, or its number.
+double time_of(const tables::Table& table, const std::optional<Column>& time,
+               const std::vector<double>& before) {
+  if (!time) return static_cast<double>(before.size());
+  const double at = value(table, *time);
+  if (!before.empty() && !(at > before.back()))
+    table.rows().refuse("column " + table.names()[time->at] +
+                            ": the time does not increase; sort the rows, or leave the column out",
+                        TruthFileProblem::time_not_increasing);
+  return at;
 }
 
 Poses read_poses(const fs::path& path) {
-  const Bytes bytes = load_text(path);
+  const Bytes bytes = tables::text_of_file(path);
   const std::string name = path.string();
-  const CsvTable table = split_csv(as_text(bytes), name);
-  const auto x = find(table.header, "x_m", "x_mm", 1e-3);
-  const auto y = find(table.header, "y_m", "y_mm", 1e-3);
-  const auto theta = find(table.header, "theta_rad", "theta_deg", radians(1));
+  tables::Table table(as_text(bytes), name);
+  const auto x = find(table.names(), {"x", "px", "tx"}, tables::Quantity::length);
+  const auto y = find(table.names(), {"y", "py", "ty"}, tables::Quantity::length);
+  const auto theta = find(table.names(), {"theta", "yaw", "heading"}, tables::Quantity::angle);
+  const auto time = find_time(table.names());
   if (!x || !y)
-    refuse(name, table.header.line, "columns x_m or x_mm and y_m or y_mm are needed",
-           TruthFileProblem::no_position);
+    throw Error("'" + name + "' has no columns of x and y with their units, such as x_m and y_mm",
+                TruthFileProblem::no_position, {name, std::to_string(table.line_of_names())});
+  table.require_names();
   Poses poses;
-  for (const CsvRow& row : table.rows) {
+  std::vector<double> times;
+  while (table.next()) {
     recording::TruthSample pose;
-    pose.x_m = value(row, *x, name);
-    pose.y_m = value(row, *y, name);
-    pose.theta_rad = theta ? value(row, *theta, name) : std::numeric_limits<double>::quiet_NaN();
+    pose.x_m = value(table, *x);
+    pose.y_m = value(table, *y);
+    pose.theta_rad = theta ? value(table, *theta) : std::numeric_limits<double>::quiet_NaN();
     poses.rows.push_back(pose);
+    times.push_back(time_of(table, time, times));
   }
   if (poses.rows.size() < 2)
     throw Error("'" + name + "' holds fewer than two poses: the start and the end are needed",
                 TruthFileProblem::too_few_poses, {name});
-  poses.part = parts_of(table, name);
+  for (const double at : times) poses.part.push_back((at - times.front()) / (times.back() - times.front()));
   if (!theta) poses.rows.front().theta_rad = 0;  // the frame is the robot's own at the start
   return poses;
 }

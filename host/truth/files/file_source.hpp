@@ -6,20 +6,20 @@
 
 namespace astro::truth {
 
-/// What is wrong with a file of ground truth. Values: the file; of all but too_few_poses the line, and of
-/// not_a_number the text there.
+/// What is wrong with a file of ground truth. Values: the file; of not_a_number and time_not_increasing the line, and of the
+/// former the column and the text there.
 enum class TruthFileProblem { no_position, not_a_number, time_not_increasing, too_few_poses };
 
 /// Ground truth that another program recorded: after each run a CSV is read from `folder`; if it is missing,
 /// a person is asked to save it. Its name is the run's ("before-square-cw-1.csv"); its header names the
 /// columns with units:
 ///
-///   x_m | x_mm, y_m | y_mm, theta_rad | theta_deg (optional)
+///   x_m | "x (mm)" ..., y_m ..., theta_rad | yaw_deg ... (optional)
 ///
 /// Without a heading the axes are those of the robot at its start: x forward, y left.
 /// The first row is the pose at the start and the last row the pose at the end; the robot stands at both. The
-/// rows between are spread over the run, which is only good for plots: by a column t or time if there is one
-/// (any unit, as t_s or time_ms; it must increase), evenly otherwise.
+/// rows between are spread over the run, which is only good for plots: by a column of numbers t or time if there is
+/// one (in any unit; it must increase), evenly otherwise.
 ///
 /// A file that was written before the run began (recording::RunInfo::started_at) is that of another run, and counts as
 /// missing.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/base/text/numbers.hpp"
+#include "host/formats/tables/units.hpp"
 #include "host/truth/files/frame_numbers.hpp"
 #include "host/truth/files/motive_header.hpp"
 #include "host/truth/files/rotations.hpp"
@@ -16,9 +17,9 @@ namespace {
 constexpr double kTimeRounding_s = 1.05e-3;
 
 PoseColumns motive_columns(const MotiveHeader& header, const MotiveBody& body, const std::string& order,
-                           const Rows& rows) {
+                           const tables::Rows& rows) {
   PoseColumns columns;
-  columns.dialect = header.dialect;
+  columns.separator = header.separator;
   columns[Slot::frame] = header.frame_column;
   columns[Slot::time] = header.time_column;
   constexpr Slot kPosition[] = {Slot::x, Slot::y, Slot::z};
@@ -32,7 +33,7 @@ PoseColumns motive_columns(const MotiveHeader& header, const MotiveBody& body, c
   } else if (turns && is_euler_order(order)) {
     columns.rotation = RotationKind::euler;
     columns.euler_order = order;
-    columns.radians = *radians_per("deg");
+    columns.radians = *tables::radians_per("deg");
   } else if (turns) {
     rows.refuse("the rotation is given by three angles, but the rotation type '" + order.substr(0, 40) +
                 "' is no order of axes such as XYZ");
@@ -40,10 +41,10 @@ PoseColumns motive_columns(const MotiveHeader& header, const MotiveBody& body, c
     for (const Slot slot : kRotation) columns[slot] = -1;
   }
   const std::string unit = header.value("Length Units");
-  const auto metres = metres_per(unit);
+  const auto metres = tables::metres_per(unit);
   if (!unit.empty() && !metres)
-    rows.refuse("the unit of length " + shown_cell(unit) + " is not known", TrackProblem::length_unit_unknown,
-                {cut_cell(unit)});
+    rows.refuse("the unit of length " + tables::shown_cell(unit) + " is not known",
+                TrackProblem::length_unit_unknown, {tables::cut_cell(unit)});
   columns.metres = metres.value_or(1);
   return columns;
 }
@@ -57,7 +58,7 @@ std::string rotation_text(const PoseColumns& columns) {
 /// Frame numbers and times of the rows, checked against one another.
 class MotiveTimes {
  public:
-  explicit MotiveTimes(const MotiveHeader& header) : comma_(header.dialect.decimal_comma()), frames_(comma_) {
+  explicit MotiveTimes(const MotiveHeader& header) : separator_(header.separator), frames_(separator_) {
     rate_hz_ = header.number("Export Frame Rate");
     if (rate_hz_ <= 0) rate_hz_ = header.number("Capture Frame Rate");
   }
@@ -65,9 +66,9 @@ class MotiveTimes {
   std::int64_t dropped() const { return frames_.dropped(); }
   double disagreement_s() const { return disagreement_s_; }
 
-  std::int64_t take(const PoseRow& row, const Rows& rows) {
+  std::int64_t take(const PoseRow& row, const tables::Rows& rows) {
     const std::int64_t frame = frames_.take(row.frame(), rows);
-    const auto column_ns = exact_ns(row.time(), 9, comma_);
+    const auto column_ns = tables::exact_ns(row.time(), 9, separator_);
     if (rate_hz_ <= 0) {
       if (!column_ns) rows.refuse(2, "there is no time, and the header states no frame rate");
       return *column_ns;
@@ -79,17 +80,17 @@ class MotiveTimes {
   }
 
  private:
-  bool comma_;
+  char separator_;
   FrameNumbers frames_;
   double rate_hz_ = 0, disagreement_s_ = 0;
 };
 
 /// The hour of a time code "15:26:46:12.02" in a row; -1 if there is none.
-int hour_of_time_code(const Rows& rows, const MotiveHeader& header) {
+int hour_of_time_code(const tables::Rows& rows, const MotiveHeader& header) {
   std::optional<std::string_view> rest = rows.text();
   std::string_view cell;
   for (int i = 0; i <= header.time_code_column; ++i) {
-    if (!take_cell(rest, header.dialect.separator, cell)) return -1;
+    if (!tables::take_cell(rest, header.separator, cell)) return -1;
   }
   int hour = -1;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), hour);
@@ -133,14 +134,14 @@ void add_remarks(const MotiveHeader& header, const MotiveTimes& times, TrackFact
 }  // namespace
 
 std::vector<BodyName> bodies_in_motive(std::string_view text, std::string_view file) {
-  Rows rows(text, file);
+  tables::Rows rows(text, file);
   std::vector<BodyName> names;
   for (const MotiveBody& body : read_motive_header(rows).bodies) names.push_back(body.name);
   return names;
 }
 
 BodyTrack read_motive(std::string_view text, std::string_view file, std::string_view body) {
-  Rows rows(text, file);
+  tables::Rows rows(text, file);
   const MotiveHeader header = read_motive_header(rows);
   std::vector<BodyName> names;
   for (const MotiveBody& one : header.bodies) names.push_back(one.name);

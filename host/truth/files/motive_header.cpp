@@ -1,6 +1,7 @@
 #include "host/truth/files/motive_header.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "host/base/error.hpp"
 
@@ -15,7 +16,7 @@ std::string_view at_or_empty(const HeaderCells& cells, std::size_t index) {
   return index < cells.size() ? cells[index] : std::string_view{};
 }
 
-[[noreturn]] void refuse_without_header(const Rows& rows) {
+[[noreturn]] void refuse_without_header(const tables::Rows& rows) {
   throw Error("'" + std::string(rows.file()) +
               "' has no header of Motive with a row that begins with Frame, so its columns have no meaning: "
               "export the recording again with its header");
@@ -42,11 +43,11 @@ const HeaderCells& labelled(const std::vector<HeaderCells>& rows, std::string_vi
   return !labels && place < rows.size() ? rows[place] : kNone;
 }
 
-Headings read_headings(Rows& rows, char separator) {
+Headings read_headings(tables::Rows& rows, char separator) {
   std::vector<HeaderCells> above;
   Headings out;
   while (rows.next_filled() && above.size() <= kMostHeadingRows) {
-    HeaderCells cells = split_header(rows, separator);
+    HeaderCells cells = tables::split_row(rows, separator);
     if (at_or_empty(cells, 0) != "Frame") {
       above.push_back(std::move(cells));
       continue;
@@ -65,8 +66,9 @@ Headings read_headings(Rows& rows, char separator) {
 
 /// Where the cell of a rigid body belongs; nullptr if it is neither a position nor a rotation.
 int* place_of(MotiveBody& body, std::string_view kind, std::string_view axis) {
-  const std::size_t index =
-      axis.size() == 1 ? std::string_view("XYZW").find(axis[0]) : std::string_view::npos;
+  const std::size_t index = axis.size() == 1 ? std::string_view("XYZW").find(static_cast<char>(
+                                                   std::toupper(static_cast<unsigned char>(axis[0]))))
+                                             : std::string_view::npos;
   if (kind == "Position" && index < 3) return &body.position[index];
   if (kind == "Rotation" && index < 4) return &body.rotation[index];
   return nullptr;
@@ -94,6 +96,25 @@ std::vector<MotiveBody> bodies_of(const Headings& headings) {
   return bodies;
 }
 
+[[noreturn]] void refuse_without_bodies(const tables::Rows& rows, const Headings& headings) {
+  const std::string file(rows.file());
+  const bool bones = std::any_of(headings.type.begin(), headings.type.end(),
+                                 [](std::string_view type) { return type.starts_with("Bone"); });
+  if (bones)
+    throw Error(
+        "'" + file +
+            "' holds the bones of a skeleton and no rigid body: make a rigid body of the robot's markers, "
+            "and export the take again with rigid bodies switched on",
+        TrackProblem::no_rigid_body, {file});
+  const std::string_view type = headings.type.size() <= 3      ? std::string_view()
+                                : headings.type.back().empty() ? headings.type[2]
+                                                               : headings.type.back();
+  throw Error("'" + file + "' holds no rigid body with positions" +
+                  (type.empty() ? "" : ", only columns of type '" + std::string(type) + "'") +
+                  ": solve the assets of the take, and export it again with rigid bodies switched on",
+              TrackProblem::no_rigid_body, {file});
+}
+
 void find_fixed_columns(const HeaderCells& axis, MotiveHeader& out) {
   for (std::size_t i = 1; i < std::min<std::size_t>(axis.size(), 3); ++i) {
     if (axis[i].substr(0, 4) != "Time") continue;
@@ -109,34 +130,25 @@ std::string MotiveHeader::value(std::string_view key) const {
 }
 
 double MotiveHeader::number(std::string_view key) const {
-  const auto number = cell_number(value(key), dialect.decimal_comma());
+  const auto number = tables::cell_number(value(key), separator);
   return number && *number > 0 ? *number : 0;
 }
 
-MotiveHeader read_motive_header(Rows& rows) {
+MotiveHeader read_motive_header(tables::Rows& rows) {
   if (!rows.next_filled()) throw Error("'" + std::string(rows.file()) + "' is empty");
   MotiveHeader out;
-  out.dialect = dialect_of(rows.text());
-  const HeaderCells first = split_header(rows, out.dialect.separator);
+  out.separator = tables::separator_of(rows.text());
+  const HeaderCells first = tables::split_row(rows, out.separator);
   if (at_or_empty(first, 0) != "Format Version") refuse_without_header(rows);
   read_values(first, out);
-  const Headings headings = read_headings(rows, out.dialect.separator);
+  const Headings headings = read_headings(rows, out.separator);
   find_fixed_columns(headings.axis, out);
   out.bodies = bodies_of(headings);
   const auto incomplete = [](const MotiveBody& body) {
     return *std::min_element(body.position.begin(), body.position.end()) < 0;
   };
   out.bodies.erase(std::remove_if(out.bodies.begin(), out.bodies.end(), incomplete), out.bodies.end());
-  if (out.bodies.empty())
-    throw Error(
-        "'" + std::string(rows.file()) + "' holds no rigid body with positions" +
-            (headings.type.size() > 3
-                 ? ", only columns of type '" +
-                       std::string(headings.type.back().empty() ? headings.type[2] : headings.type.back()) +
-                       "'"
-                 : "") +
-            ": solve the assets of the take, and export it again with rigid bodies switched on",
-        TrackProblem::no_rigid_body, {std::string(rows.file())});
+  if (out.bodies.empty()) refuse_without_bodies(rows, headings);
   return out;
 }
 

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "host/formats/tables/rows.hpp"
 #include "host/truth/files/body_choice.hpp"
 #include "host/truth/files/pose_columns.hpp"
-#include "host/truth/files/rows.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 /// The head of a Motive table: what motive_csv.hpp needs to read its rows.
 namespace astro::truth {
@@ -20,7 +21,7 @@ struct MotiveBody {
 };
 
 struct MotiveHeader {
-  Dialect dialect;
+  char separator = ',';
   std::map<std::string, std::string, std::less<>> values;  // of the first line
   std::vector<MotiveBody> bodies;
   int frame_column = 0, time_column = -1, time_code_column = -1;
@@ -31,6 +32,6 @@ struct MotiveHeader {
 
 /// Reads up to and with the row that begins with Frame. Throws astro::Error if the header is missing, or if
 /// there is no rigid body.
-MotiveHeader read_motive_header(Rows& rows);
+MotiveHeader read_motive_header(tables::Rows& rows);
 
 }  // namespace astro::truth

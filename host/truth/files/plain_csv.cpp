@@ -1,17 +1,45 @@
 #include "host/truth/files/plain_csv.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <iterator>
+#include <numbers>
+#include <set>
+#include <utility>
 
 #include "host/base/error.hpp"
+#include "host/formats/tables/stated_columns.hpp"
+#include "host/formats/tables/table.hpp"
+#include "host/formats/tables/time_column.hpp"
+#include "host/formats/tables/units.hpp"
 #include "host/truth/files/pose_columns.hpp"
 #include "host/truth/files/rotations.hpp"
 
 namespace astro::truth {
 namespace {
 
-bool is_unit(std::string_view text) { return metres_per(text) || radians_per(text) || ns_power(text); }
+using tables::Table;
+
+constexpr std::size_t kMostBodies = 200;
+
+bool is_unit(std::string_view text) {
+  return tables::metres_per(text) || tables::radians_per(text) || tables::ns_power(text);
+}
+
+bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
+bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
+
+/// In lower case, with an underscore where a capital letter begins a word: "posX" -> "pos_x".
+std::string with_underscores(std::string_view name) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (i > 0 && is_upper(name[i]) && is_lower(name[i - 1])) out += '_';
+    out += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
+  }
+  return out;
+}
 
 /// A column's name taken apart.
 struct ColumnName {
@@ -23,9 +51,9 @@ struct ColumnName {
 
 /// "/mocap/pose/position/" -> "/mocap"
 std::string body_before(std::string stem) {
-  static constexpr std::string_view kWords[] = {"pose",      "position",   "pos",  "translation",
-                                                "transform", "p",          "q",    "rotation",
-                                                "rot",       "quaternion", "quat", "orientation"};
+  static constexpr std::string_view kWords[] = {
+      "pose", "position",   "pos",  "translation", "transform", "p",          "q",    "rotation",
+      "rot",  "quaternion", "quat", "orientation", "t",         "coordinate", "euler"};
   while (true) {
     while (!stem.empty() && std::string_view("./_ ").find(stem.back()) != std::string_view::npos)
       stem.pop_back();
@@ -37,8 +65,7 @@ std::string body_before(std::string stem) {
 
 ColumnName taken_apart(std::string_view cell) {
   ColumnName out;
-  out.stem = std::string(cell.substr(0, 200));
-  for (char& c : out.stem) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  out.stem = with_underscores(cell.substr(0, 200));
   if (const std::size_t open = out.stem.find_last_of("([");
       open != std::string::npos && open > 0 && (out.stem.back() == ')' || out.stem.back() == ']')) {
     out.unit = out.stem.substr(open + 1, out.stem.size() - open - 2);
@@ -49,6 +76,10 @@ ColumnName taken_apart(std::string_view cell) {
     out.unit = out.stem.substr(at + 1);
     out.stem.resize(at);
   }
+  for (const std::string_view end : {"pos", "position", "coordinate", "coord"})
+    if (out.stem.size() > end.size() && out.stem.ends_with(end) &&
+        std::string_view("_ .").find(out.stem[out.stem.size() - end.size() - 1]) != std::string_view::npos)
+      out.stem.resize(out.stem.size() - end.size() - 1);
   out.last = out.stem.substr(out.stem.find_last_of("./_ ") + 1);
   out.body = body_before(out.stem.substr(0, out.stem.size() - out.last.size()));
   return out;
@@ -71,13 +102,27 @@ std::optional<Slot> slot_named(const ColumnName& name) {
   if (has_word(name.stem,
                {"vel", "twist", "linear", "angular", "acc", "cov", "std", "sigma", "rate", "bias"}))
     return std::nullopt;
-  static constexpr std::pair<std::string_view, Slot> kNames[] = {
-      {"x", Slot::x},           {"y", Slot::y},           {"z", Slot::z},         {"tx", Slot::x},
-      {"ty", Slot::y},          {"tz", Slot::z},          {"px", Slot::x},        {"py", Slot::y},
-      {"pz", Slot::z},          {"qx", Slot::rx},         {"qy", Slot::ry},       {"qz", Slot::rz},
-      {"qw", Slot::rw},         {"theta", Slot::heading}, {"yaw", Slot::heading}, {"heading", Slot::heading},
-      {"psi", Slot::heading},   {"t", Slot::time},        {"time", Slot::time},   {"stamp", Slot::time},
-      {"timestamp", Slot::time}};
+  static constexpr std::pair<std::string_view, Slot> kNames[] = {{"x", Slot::x},
+                                                                 {"y", Slot::y},
+                                                                 {"z", Slot::z},
+                                                                 {"tx", Slot::x},
+                                                                 {"ty", Slot::y},
+                                                                 {"tz", Slot::z},
+                                                                 {"px", Slot::x},
+                                                                 {"py", Slot::y},
+                                                                 {"pz", Slot::z},
+                                                                 {"qx", Slot::rx},
+                                                                 {"qy", Slot::ry},
+                                                                 {"qz", Slot::rz},
+                                                                 {"qw", Slot::rw},
+                                                                 {"theta", Slot::heading},
+                                                                 {"yaw", Slot::heading},
+                                                                 {"heading", Slot::heading},
+                                                                 {"psi", Slot::heading},
+                                                                 {"th", Slot::heading},
+                                                                 {"orientation", Slot::heading},
+                                                                 {"roll", Slot::roll},
+                                                                 {"pitch", Slot::pitch}};
   const bool turns = has_word(name.stem, {"orient", "quat", "rot", "q_", "q."});
   const auto* const found = std::find_if(std::begin(kNames), std::end(kNames),
                                          [&](const auto& entry) { return entry.first == name.last; });
@@ -92,24 +137,23 @@ std::optional<Slot> slot_named(const ColumnName& name) {
 struct PlainHeader {
   std::string body;
   PoseColumns columns;
-  std::string length_unit, angle_unit, time_unit;
+  tables::TimeColumns time;
+  std::string length_unit, angle_unit;
 };
 
-void take_unit(const Rows& rows, Slot slot, int column, const std::string& unit, PlainHeader& out) {
+void take_unit(const tables::Rows& rows, Slot slot, int column, const std::string& unit, PlainHeader& out) {
   if (unit.empty()) return;
-  std::string& known = slot == Slot::time      ? out.time_unit
-                       : slot == Slot::heading ? out.angle_unit
-                                               : out.length_unit;
-  const bool fits = slot == Slot::time      ? ns_power(unit).has_value()
-                    : slot == Slot::heading ? radians_per(unit).has_value()
-                                            : metres_per(unit).has_value();
+  const bool angle = slot >= Slot::heading;
+  std::string& known = angle ? out.angle_unit : out.length_unit;
+  const bool fits = angle ? tables::radians_per(unit).has_value() : tables::metres_per(unit).has_value();
   if (!fits)
-    rows.refuse(column + 1, "the unit " + shown_cell(unit) + " does not fit the column",
-                TrackProblem::unit_of_other_quantity, {cut_cell(unit)});
+    rows.refuse(column + 1, "the unit " + tables::shown_cell(unit) + " does not fit the column",
+                TrackProblem::unit_of_other_quantity, {tables::cut_cell(unit)});
   if (!known.empty() && known != unit)
     rows.refuse(column + 1,
-                "the positions have different units, " + shown_cell(known) + " and " + shown_cell(unit),
-                TrackProblem::units_differ, {cut_cell(known), cut_cell(unit)});
+                "the positions have different units, " + tables::shown_cell(known) + " and " +
+                    tables::shown_cell(unit),
+                TrackProblem::units_differ, {tables::cut_cell(known), tables::cut_cell(unit)});
   known = unit;
 }
 
@@ -122,71 +166,139 @@ PlainHeader& header_of(std::vector<PlainHeader>& headers, const std::string& bod
   return headers.back();
 }
 
-/// Uses the four columns of a quaternion, else a heading, else no rotation.
-void settle_columns(PlainHeader& header, const PlainHeader& time, Dialect dialect) {
+/// Uses the four columns of a quaternion, else the three angles, else a heading, else no rotation.
+void settle_columns(PlainHeader& header, const tables::TimeColumns& time, char separator) {
   PoseColumns& columns = header.columns;
-  columns.dialect = dialect;
-  if (columns[Slot::time] < 0) {
-    columns[Slot::time] = time.columns[Slot::time];
-    header.time_unit = time.time_unit;
+  columns.separator = separator;
+  if (!header.time.at) header.time = time;
+  columns[Slot::time] = header.time.at ? static_cast<int>(*header.time.at) : -1;
+  columns[Slot::nanoseconds] = header.time.nanoseconds ? static_cast<int>(*header.time.nanoseconds) : -1;
+  constexpr std::array kParts{Slot::rx, Slot::ry, Slot::rz, Slot::rw};
+  const auto all = [&](const auto& slots) {
+    return std::all_of(slots.begin(), slots.end(), [&](Slot slot) { return columns[slot] >= 0; });
+  };
+  if (all(kParts)) {
+    columns.rotation = RotationKind::quaternion;
+  } else if (all(std::array{Slot::roll, Slot::pitch, Slot::heading})) {
+    columns.rotation = RotationKind::euler;
+    columns.euler_order = "ZYX";
+    columns[Slot::rx] = columns[Slot::roll];
+    columns[Slot::ry] = columns[Slot::pitch];
+    columns[Slot::rz] = columns[Slot::heading];
+    columns[Slot::rw] = -1;
+  } else {
+    columns.rotation = columns[Slot::heading] >= 0 ? RotationKind::heading : RotationKind::none;
+    for (const Slot slot : kParts) columns[slot] = -1;
   }
-  const Slot parts[] = {Slot::rx, Slot::ry, Slot::rz, Slot::rw};
-  const bool turns = std::all_of(std::begin(parts), std::end(parts), [&](Slot s) { return columns[s] >= 0; });
-  for (const Slot slot : parts) columns[slot] = turns ? columns[slot] : -1;
-  if (turns) columns[Slot::heading] = -1;
-  columns.rotation = turns                         ? RotationKind::quaternion
-                     : columns[Slot::heading] >= 0 ? RotationKind::heading
-                                                   : RotationKind::none;
-  columns.metres = header.length_unit.empty() ? 1 : *metres_per(header.length_unit);
-  columns.radians = header.angle_unit.empty() ? 1 : *radians_per(header.angle_unit);
+  columns[Slot::roll] = columns[Slot::pitch] = -1;
+  if (columns.rotation != RotationKind::heading) columns[Slot::heading] = -1;
+  columns.metres = header.length_unit.empty() ? 1 : *tables::metres_per(header.length_unit);
+  columns.radians = header.angle_unit.empty() ? 1 : *tables::radians_per(header.angle_unit);
 }
 
 /// The bodies that have a time and a position, each by what its columns' names begin with.
-std::vector<PlainHeader> plain_headers(const Rows& rows) {
-  constexpr std::size_t kMostBodies = 200;
-  const Dialect dialect = dialect_of(rows.text());
-  const auto cells = split_header(rows, dialect.separator);
+std::vector<PlainHeader> plain_headers(const Table& table, const std::vector<std::string>& names) {
   std::vector<PlainHeader> headers;
-  PlainHeader time;  // of all bodies that have none of their own
-  for (std::size_t i = 0; i < cells.size() && headers.size() < kMostBodies; ++i) {
-    const ColumnName name = taken_apart(cells[i]);
+  tables::TimeColumns first_time;  // of all bodies that have none of their own
+  for (std::size_t i = 0; i < names.size() && headers.size() < kMostBodies; ++i) {
+    const ColumnName name = taken_apart(names[i]);
+    if (const auto time = tables::time_name(names[i])) {
+      if (!first_time.at || first_time.stem == time->stem)
+        first_time.take(i, *time);
+      else
+        header_of(headers, name.body).time.take(i, *time);
+      continue;
+    }
     const auto slot = slot_named(name);
     if (!slot) continue;
-    PlainHeader* header = &header_of(headers, name.body);
-    if (*slot == Slot::time && time.columns[Slot::time] < 0) header = &time;
-    if (header->columns[*slot] >= 0) continue;
-    header->columns[*slot] = static_cast<int>(i);
-    if (*slot < Slot::rx || *slot > Slot::rw) take_unit(rows, *slot, static_cast<int>(i), name.unit, *header);
+    PlainHeader& header = header_of(headers, name.body);
+    if (header.columns[*slot] >= 0) continue;
+    header.columns[*slot] = static_cast<int>(i);
+    if (*slot < Slot::rx || *slot > Slot::rw)
+      take_unit(table.rows(), *slot, static_cast<int>(i), name.unit, header);
   }
-  for (PlainHeader& header : headers) settle_columns(header, time, dialect);
-  const auto incomplete = [](const PlainHeader& header) {
+  for (PlainHeader& header : headers) settle_columns(header, first_time, table.separator());
+  std::erase_if(headers, [](const PlainHeader& header) {
     const PoseColumns& columns = header.columns;
     return columns[Slot::x] < 0 || columns[Slot::y] < 0 || columns[Slot::time] < 0;
-  };
-  headers.erase(std::remove_if(headers.begin(), headers.end(), incomplete), headers.end());
+  });
   return headers;
 }
 
-std::vector<BodyName> names_of(const std::vector<PlainHeader>& headers) {
-  std::vector<BodyName> names;
-  for (const PlainHeader& header : headers) names.push_back({header.body, ""});
-  return names;
+/// The column with the number of the tag that a row is about; -1 if there is none.
+int tag_column(const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = with_underscores(names[i]);
+    if (name == "id" || name == "tag" || name == "marker" || name == "tag_id" || name == "marker_id" ||
+        name == "body_id")
+      return static_cast<int>(i);
+  }
+  return -1;
 }
 
-/// The headers of a table; refused if no body is complete.
-std::vector<PlainHeader> required_headers(Rows& rows) {
-  if (!rows.next_filled()) throw Error("'" + std::string(rows.file()) + "' is empty");
-  std::vector<PlainHeader> headers = plain_headers(rows);
-  if (headers.empty())
-    rows.refuse("columns for the time and for x and y are needed, such as time_s, x_m and y_m");
-  return headers;
+/// What is written in the column of tags, if several tags are; empty otherwise.
+std::vector<BodyName> tags_in(Table& table, int column) {
+  if (column < 0) return {};
+  std::vector<BodyName> tags;
+  std::set<std::string, std::less<>> known;
+  while (known.size() < kMostBodies && table.next()) {
+    const std::string_view tag = table.cell(static_cast<std::size_t>(column));
+    if (tag.empty() || known.contains(tag)) continue;
+    known.emplace(tag);
+    tags.push_back({tables::cut_cell(tag), ""});
+  }
+  table.rewind();
+  if (tags.size() < 2) tags.clear();
+  return tags;
 }
 
-/// The unit of times without one: the one that makes them an epoch time between 2001 and 2600, else seconds.
-const char* assumed_time_unit(std::string_view cell, bool decimal_comma) {
-  const double value = cell_number(cell, decimal_comma).value_or(0);
-  return value > 1e18 ? "ns" : value > 1e15 ? "us" : value > 1e12 ? "ms" : "s";
-}
+/// A table with the names of its columns, and the bodies that they are about.
+struct PlainBodies {
+  explicit PlainBodies(const PlainTable& plain)
+      : table(plain.text, plain.file), stated(!plain.columns.empty()) {
+    const std::vector<std::string> names = tables::names_with(plain.columns, table);
+    headers = plain_headers(table, names);
+    if (headers.size() == 1) {
+      tag = tag_column(names);
+      tags = tags_in(table, tag);
+    }
+  }
+
+  /// Throws astro::Error if there is no body.
+  std::vector<BodyName> names() const {
+    if (headers.empty()) refuse();
+    table.require_names();
+    if (!tags.empty()) return tags;
+    std::vector<BodyName> all;
+    for (const PlainHeader& header : headers) all.push_back({header.body, ""});
+    return all;
+  }
+
+  [[noreturn]] void refuse() const {
+    const std::string file(table.rows().file());
+    if (table.names().empty() && !stated)
+      throw Error(
+          "'" + file +
+              "' begins with numbers: without a header its columns have no meaning: export the recording "
+              "again with its header",
+          TrackProblem::no_header, {file});
+    std::vector<std::string> values{file};
+    std::string listed;
+    for (const std::string& name : table.names()) {
+      values.push_back(tables::cut_cell(name));
+      listed += (listed.empty() ? "" : ", ") + values.back();
+    }
+    throw Error("'" + file + "' has no columns for the time and for x and y, such as time_s, x_m and y_m" +
+                    (listed.empty() ? "" : "; its columns are " + listed),
+                TrackProblem::no_columns, std::move(values));
+  }
+
+  Table table;
+  std::vector<PlainHeader> headers;
+  std::vector<BodyName> tags;
+  int tag = -1;
+  bool stated;
+};
 
 void describe_plain(const PlainHeader& header, TrackFacts& facts) {
   facts.kind = FileKind::plain;
@@ -194,59 +306,141 @@ void describe_plain(const PlainHeader& header, TrackFacts& facts) {
   facts.length_unit = header.length_unit;
   facts.rotation_kind = header.columns.rotation;
   facts.rotation = header.columns.rotation == RotationKind::quaternion ? "quaternion"
+                   : header.columns.rotation == RotationKind::euler    ? "roll, pitch and yaw"
                    : header.columns.rotation == RotationKind::heading  ? "heading about z"
                                                                        : "none";
   if (header.length_unit.empty())
     facts.remarks.push_back(
         {"the unit of length is not stated: metres are assumed", TrackRemark::length_unit_assumed});
-  if (header.columns.rotation == RotationKind::heading && header.angle_unit.empty())
-    facts.remarks.push_back(
-        {"the unit of the heading is not stated: radians are assumed", TrackRemark::heading_unit_assumed});
+}
+
+/// How well the direction of motion follows the heading if its unit has so many radians: 1 if they differ by a constant, 0 if
+/// they have nothing in common. A robot may drive backwards, and the table may be a mirror image.
+class DirectionMatch {
+ public:
+  explicit DirectionMatch(double radians) : radians_(radians) {}
+
+  void take(double direction_rad, double heading) {
+    for (const int sense : {0, 1}) {
+      const double apart = 2 * (direction_rad + (sense == 0 ? -1 : 1) * radians_ * heading);
+      cos_[sense] += std::cos(apart);
+      sin_[sense] += std::sin(apart);
+    }
+    ++count_;
+  }
+  double share() const {
+    return count_ == 0 ? 0 : std::max(std::hypot(cos_[0], sin_[0]), std::hypot(cos_[1], sin_[1])) / count_;
+  }
+
+ private:
+  double radians_, cos_[2] = {0, 0}, sin_[2] = {0, 0};
+  int count_ = 0;
+};
+
+/// Whether angles without a unit are degrees: the directions in which the body moves show it, or the size of the angles.
+bool are_degrees(Table& table, const PoseColumns& columns, Slot heading) {
+  const auto number = [&](Slot slot) {
+    return tables::cell_number(table.cell(static_cast<std::size_t>(columns[slot])), table.separator());
+  };
+  double least_x = HUGE_VAL, most_x = -HUGE_VAL, most_angle = 0;
+  table.rewind();
+  while (table.next()) {
+    const auto x = number(Slot::x), angle = number(heading);
+    if (x) least_x = std::min(least_x, *x), most_x = std::max(most_x, *x);
+    if (angle) most_angle = std::max(most_angle, std::abs(*angle));
+  }
+  constexpr double kShareOfExtent = 0.02;
+  const double long_enough = kShareOfExtent * (most_x - least_x);
+  DirectionMatch in_radians(1), in_degrees(*tables::radians_per("deg"));
+  std::optional<std::array<double, 2>> from;
+  table.rewind();
+  while (table.next()) {
+    const auto x = number(Slot::x), y = number(Slot::y), angle = number(heading);
+    if (!x || !y || !angle) continue;
+    if (from) {
+      const double dx = *x - (*from)[0], dy = *y - (*from)[1];
+      if (std::hypot(dx, dy) < long_enough || std::hypot(dx, dy) == 0) continue;
+      in_radians.take(std::atan2(dy, dx), *angle);
+      in_degrees.take(std::atan2(dy, dx), *angle);
+    }
+    from = {*x, *y};
+  }
+  table.rewind();
+  constexpr double kClear = 0.05;
+  if (std::abs(in_degrees.share() - in_radians.share()) > kClear)
+    return in_degrees.share() > in_radians.share();
+  return most_angle > 2.1 * std::numbers::pi;  // more than a turn, on a straight way
+}
+
+void settle_angles(Table& table, PlainHeader& header, TrackFacts& facts) {
+  PoseColumns& columns = header.columns;
+  if (columns.rotation != RotationKind::heading && columns.rotation != RotationKind::euler) return;
+  if (!header.angle_unit.empty()) return;
+  const bool degrees =
+      are_degrees(table, columns, columns.rotation == RotationKind::heading ? Slot::heading : Slot::rz);
+  columns.radians = degrees ? *tables::radians_per("deg") : 1;
+  const std::string unit = degrees ? "degrees" : "radians";
+  facts.remarks.push_back({"the unit of the heading is not stated: " + unit + " are assumed",
+                           TrackRemark::heading_unit_assumed,
+                           {unit}});
+}
+
+/// Throws astro::Error if the table does not show in which unit its times are.
+tables::TimeFormat settle_times(Table& table, const PlainHeader& header, TrackFacts& facts) {
+  const auto format = tables::time_format(table, header.time);
+  if (!format) {
+    if (table.next())
+      table.rows().refuse(header.columns[Slot::time] + 1,
+                          "the column does not show the unit of its times: s, ms, us and ns are possible",
+                          TrackProblem::time_unit_unknown);
+    return {};
+  }
+  if (!header.time.power && format->kind == tables::TimeKind::number) {
+    const std::string unit(tables::unit_text(format->power));
+    facts.remarks.push_back({"the unit of the time is not stated: " + unit + " is assumed",
+                             TrackRemark::time_unit_assumed,
+                             {unit}});
+  }
+  return *format;
 }
 
 }  // namespace
 
-bool is_plain_header(std::string_view line) {
-  Rows rows(line, "");
-  if (!rows.next()) return false;
+bool is_plain(std::string_view text) {
   try {
-    return !plain_headers(rows).empty();
+    const Table table(text, "");
+    return !plain_headers(table, table.names()).empty();
   } catch (const Error&) {
-    return true;  // the reader says what is wrong with it
+    return false;
   }
 }
 
-std::vector<BodyName> bodies_in_plain(std::string_view text, std::string_view file) {
-  Rows rows(text, file);
-  return names_of(required_headers(rows));
-}
+std::vector<BodyName> bodies_in_plain(const PlainTable& table) { return PlainBodies(table).names(); }
 
-BodyTrack read_plain(std::string_view text, std::string_view file, std::string_view body) {
-  Rows rows(text, file);
-  const std::vector<PlainHeader> headers = required_headers(rows);
-  PlainHeader header = headers[choose_body(names_of(headers), body, file)];
+BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
+  PlainBodies bodies(plain);
+  const std::vector<BodyName> names = bodies.names();
+  const std::size_t chosen = choose_body(names, body, plain.file);
+  PlainHeader& header = bodies.headers[bodies.tags.empty() ? chosen : 0];
+  Table& table = bodies.table;
   BodyTrack track;
-  track.name = header.body;
+  track.name = names[chosen].name;
   describe_plain(header, track.facts);
+  settle_angles(table, header, track.facts);
+  const tables::TimeFormat format = settle_times(table, header, track.facts);
+  tables::TimeReader times(header.time, format, table.separator());
   PoseRow row(header.columns);
-  TrackBuilder builder(track, text);
-  const bool comma = header.columns.dialect.decimal_comma();
-  while (rows.next_filled()) {
-    row.read(rows);
-    if (header.time_unit.empty()) {
-      header.time_unit = assumed_time_unit(row.time(), comma);
-      track.facts.remarks.push_back(
-          {"the unit of the time is not stated: " + header.time_unit + " is assumed",
-           TrackRemark::time_unit_assumed,
-           {header.time_unit}});
-    }
-    const auto time_ns = exact_ns(row.time(), *ns_power(header.time_unit), comma);
+  TrackBuilder builder(track, plain.text);
+  while (table.next()) {
+    if (!bodies.tags.empty() && table.cell(static_cast<std::size_t>(bodies.tag)) != track.name) continue;
+    row.read(table.rows());
+    const auto time_ns = times.read(row.time(), row.nanoseconds());
     if (!time_ns)
-      rows.refuse(header.columns[Slot::time] + 1, shown_cell(row.time()) + " is no time",
-                  TrackProblem::no_time, {cut_cell(row.time())});
+      table.rows().refuse(header.columns[Slot::time] + 1, tables::shown_cell(row.time()) + " is no time",
+                          TrackProblem::no_time, {tables::cut_cell(row.time())});
     TrackedPose sample = row.pose();
     sample.time_ns = *time_ns;
-    builder.add(sample, rows);
+    builder.add(sample, table.rows());
   }
   if (builder.repeated_times() > 0) track.facts.remarks.push_back(repeated_times(builder));
   return track;

@@ -13,13 +13,13 @@ namespace {
 constexpr std::size_t kFreeSampleBytes = std::size_t{24} << 20;
 constexpr double kSampleBytesPerByte = 1.85;
 
-bool is_text(std::size_t slot) { return slot <= static_cast<std::size_t>(Slot::time); }
+bool is_text(std::size_t slot) { return slot < kTextSlots; }
 
 std::uint32_t bit(Slot slot) { return 1U << static_cast<unsigned>(slot); }
 
 std::uint32_t bits_needed(const PoseColumns& columns) {
   std::uint32_t bits = 0;
-  for (std::size_t i = 2; i < kSlots; ++i) bits |= columns.column[i] >= 0 ? 1U << i : 0;
+  for (std::size_t i = kTextSlots; i < kSlots; ++i) bits |= columns.column[i] >= 0 ? 1U << i : 0;
   return bits;
 }
 
@@ -34,26 +34,26 @@ PoseRow::PoseRow(const PoseColumns& columns) : columns_(columns), needed_(bits_n
   }
 }
 
-void PoseRow::read(const Rows& rows) {
+void PoseRow::read(const tables::Rows& rows) {
   present_ = 0;
   text_ = {};
   std::optional<std::string_view> rest = rows.text();
-  const Dialect dialect = columns_.dialect;
+  const char separator = columns_.separator;
   std::string_view cell;
-  for (std::size_t i = 0; i < slot_of_.size() && take_cell(rest, dialect.separator, cell); ++i) {
+  for (std::size_t i = 0; i < slot_of_.size() && tables::take_cell(rest, separator, cell); ++i) {
     const std::size_t slot = slot_of_[i];
     if (slot == kSlots || cell.empty()) continue;
     if (is_text(slot)) {
       text_[slot] = cell;
       continue;
     }
-    const auto value = cell_number(cell, dialect.decimal_comma());
+    const auto value = tables::cell_number(cell, separator);
     if (value) {
       number_[slot] = *value;
       present_ |= 1U << slot;
     } else if (cell != "nan" && cell != "NaN" && cell != "-nan") {
-      rows.refuse(static_cast<int>(i) + 1, shown_cell(cell) + " is not a number", TrackProblem::not_a_number,
-                  {cut_cell(cell)});
+      rows.refuse(static_cast<int>(i) + 1, tables::shown_cell(cell) + " is not a number",
+                  TrackProblem::not_a_number, {tables::cut_cell(cell)});
     }
   }
 }
@@ -99,7 +99,7 @@ TrackBuilder::TrackBuilder(BodyTrack& track, std::string_view text) : track_(tra
   track_.samples.reserve(std::min(most_, lines + 1));
 }
 
-void TrackBuilder::add(const TrackedPose& sample, const Rows& rows) {
+void TrackBuilder::add(const TrackedPose& sample, const tables::Rows& rows) {
   if (!track_.samples.empty()) {
     const std::int64_t before = track_.samples.back().time_ns;
     if (sample.time_ns == before) {

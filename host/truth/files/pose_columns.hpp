@@ -5,20 +5,21 @@
 #include <string_view>
 #include <vector>
 
+#include "host/formats/tables/rows.hpp"
 #include "host/truth/files/body_track.hpp"
-#include "host/truth/files/rows.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 /// Converts the cells of a row to a pose: which column holds what, in which unit.
 namespace astro::truth {
 
-/// What a column can hold. The first two are kept as text, the others are numbers.
-enum class Slot : std::uint8_t { frame, time, x, y, z, rx, ry, rz, rw, heading };
-inline constexpr std::size_t kSlots = 10;
+/// What a column can hold. The first three are kept as text, the others are numbers.
+enum class Slot : std::uint8_t { frame, time, nanoseconds, x, y, z, rx, ry, rz, rw, heading, roll, pitch };
+inline constexpr std::size_t kSlots = 13, kTextSlots = 3;
 
 struct PoseColumns {
   /// The column of each slot, from 0; -1 if the table has none.
   std::array<int, kSlots> column;
-  Dialect dialect;
+  char separator = ',';
   RotationKind rotation = RotationKind::none;
   std::string_view euler_order = "XYZ";
   double metres = 1;   // of the file's unit of length
@@ -36,10 +37,11 @@ class PoseRow {
 
   /// Takes the cells of the current row. A missing or empty cell is no error.
   /// Throws astro::Error with file, line and column if a cell that must be a number is none.
-  void read(const Rows& rows);
+  void read(const tables::Rows& rows);
 
   std::string_view frame() const { return text_[0]; }
   std::string_view time() const { return text_[1]; }
+  std::string_view nanoseconds() const { return text_[2]; }
 
   /// The pose in SI units with a quaternion of length 1, or an invalid one if a cell is empty or no body can
   /// have this pose (zeros for a lost body). A rotation vector stays as it is in qx, qy and qz, with qw = 0,
@@ -52,7 +54,7 @@ class PoseRow {
 
   PoseColumns columns_;
   std::vector<std::uint8_t> slot_of_;  // for each column up to the last needed one; kSlots: not needed
-  std::array<std::string_view, 2> text_;
+  std::array<std::string_view, kTextSlots> text_;
   std::array<double, kSlots> number_{};
   std::uint32_t present_ = 0, needed_ = 0;
 };
@@ -64,7 +66,7 @@ class TrackBuilder {
 
   /// Throws astro::Error with file and line if the time does not increase (a repeated time is dropped and
   /// counted), or if there are more samples than can be held.
-  void add(const TrackedPose& sample, const Rows& rows);
+  void add(const TrackedPose& sample, const tables::Rows& rows);
   std::int64_t repeated_times() const { return repeated_times_; }
 
  private:

@@ -74,45 +74,4 @@ double tilt_rad(const Quaternion& q, int axis) {
   return 2 * std::acos(std::min(1.0, std::hypot(about, q.w)));
 }
 
-std::optional<double> metres_per(std::string_view unit) {
-  static constexpr std::pair<std::string_view, double> kUnits[] = {{"m", 1},
-                                                                   {"meter", 1},
-                                                                   {"meters", 1},
-                                                                   {"metre", 1},
-                                                                   {"metres", 1},
-                                                                   {"mm", 1e-3},
-                                                                   {"millimeter", 1e-3},
-                                                                   {"millimeters", 1e-3},
-                                                                   {"millimetres", 1e-3},
-                                                                   {"cm", 1e-2},
-                                                                   {"centimeter", 1e-2},
-                                                                   {"centimeters", 1e-2},
-                                                                   {"centimetres", 1e-2},
-                                                                   {"dm", 0.1},
-                                                                   {"decimeters", 0.1},
-                                                                   {"um", 1e-6},
-                                                                   {"in", 0.0254},
-                                                                   {"inch", 0.0254},
-                                                                   {"inches", 0.0254},
-                                                                   {"ft", 0.3048},
-                                                                   {"foot", 0.3048},
-                                                                   {"feet", 0.3048},
-                                                                   {"km", 1e3}};
-  return looked_up(kUnits, unit);
-}
-
-std::optional<double> radians_per(std::string_view unit) {
-  constexpr double kDegree = radians(1);
-  static constexpr std::pair<std::string_view, double> kUnits[] = {
-      {"rad", 1}, {"radians", 1}, {"deg", kDegree}, {"degrees", kDegree}, {"\xC2\xB0", kDegree}};
-  return looked_up(kUnits, unit);
-}
-
-std::optional<int> ns_power(std::string_view unit) {
-  static constexpr std::pair<std::string_view, int> kUnits[] = {
-      {"s", 9},  {"sec", 9}, {"secs", 9}, {"second", 9},       {"seconds", 9},
-      {"ms", 6}, {"us", 3},  {"ns", 0},   {"milliseconds", 6}, {"nsec", 0}};
-  return looked_up(kUnits, unit);
-}
-
 }  // namespace astro::truth

@@ -6,7 +6,7 @@
 
 #include "host/truth/source/pose3.hpp"
 
-/// The ways in which trackers write a rotation, as quaternions, and their units.
+/// The ways in which trackers write a rotation, as quaternions.
 namespace astro::truth {
 
 struct Quaternion {
@@ -32,10 +32,5 @@ Quaternion from_rotation_vector(const std::array<double, 3>& vector_rad);
 
 /// How far the rotation leans away from a turn about axis 0, 1 or 2 (x, y, z), 0 to pi.
 double tilt_rad(const Quaternion& q, int axis);
-
-/// Units as headers write them, in any case: "Meters", "mm", "deg", "ms".
-std::optional<double> metres_per(std::string_view unit);
-std::optional<double> radians_per(std::string_view unit);
-std::optional<int> ns_power(std::string_view unit);  // s: 9, ms: 6, us: 3, ns: 0
 
 }  // namespace astro::truth

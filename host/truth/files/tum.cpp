@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "host/base/error.hpp"
 #include "host/truth/files/pose_columns.hpp"
@@ -9,14 +10,16 @@
 namespace astro::truth {
 namespace {
 
+constexpr double kLengthTolerance = 0.2;  // of a quaternion that was written with few digits, squared
+
 /// A comma wins over blanks, because blanks may follow it.
-Dialect tum_dialect(std::string_view line) {
-  return {line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' '};
+char tum_separator(std::string_view line) {
+  return line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' ';
 }
 
-PoseColumns tum_columns(FileKind kind, Dialect dialect) {
+PoseColumns tum_columns(FileKind kind, char separator) {
   PoseColumns columns;
-  columns.dialect = dialect;
+  columns.separator = separator;
   columns.rotation = RotationKind::quaternion;
   constexpr Slot kTum[] = {Slot::time, Slot::x, Slot::y, Slot::z, Slot::rx, Slot::ry, Slot::rz, Slot::rw};
   constexpr Slot kEuroc[] = {Slot::time, Slot::x, Slot::y, Slot::z, Slot::rw, Slot::rx, Slot::ry, Slot::rz};
@@ -32,22 +35,26 @@ bool is_comment(std::string_view line) {
 }  // namespace
 
 FileKind tum_kind_of(std::string_view line) {
-  const Dialect dialect = tum_dialect(line);
+  const char separator = tum_separator(line);
   std::optional<std::string_view> rest = line;
   std::string_view cell, first;
   std::size_t cells = 0;
-  for (; cells < 20 && take_cell(rest, dialect.separator, cell); ++cells) {
+  double squares = 0;  // of the quaternion, whose order does not matter
+  for (; cells < 20 && tables::take_cell(rest, separator, cell); ++cells) {
     if (cells == 0) first = cell;
-    if (!cell_number(cell, dialect.decimal_comma())) return FileKind::unknown;
+    const auto value = tables::cell_number(cell, separator);
+    if (!value) return FileKind::unknown;
+    if (cells >= 4 && cells < 8) squares += *value * *value;
   }
+  if (squares != 0 && std::abs(squares - 1) > kLengthTolerance) return FileKind::unknown;
   const bool whole = first.size() >= 15 && std::all_of(first.begin(), first.end(),
                                                        [](unsigned char c) { return std::isdigit(c) != 0; });
-  if (whole && cells >= 8 && dialect.separator == ',') return FileKind::euroc;
+  if (whole && cells >= 8 && separator == ',') return FileKind::euroc;
   return cells == 8 ? FileKind::tum : FileKind::unknown;
 }
 
 BodyTrack read_tum(std::string_view text, std::string_view file) {
-  Rows rows(text, file);
+  tables::Rows rows(text, file);
   while (rows.next_filled() && is_comment(rows.text())) {
   }
   BodyTrack track;
@@ -59,16 +66,17 @@ BodyTrack read_tum(std::string_view text, std::string_view file) {
   facts.length_unit = "m";
   facts.rotation_kind = RotationKind::quaternion;
   facts.rotation = facts.kind == FileKind::euroc ? "quaternion w, x, y, z" : "quaternion x, y, z, w";
-  PoseRow row(tum_columns(facts.kind, tum_dialect(rows.text())));
+  PoseRow row(tum_columns(facts.kind, tum_separator(rows.text())));
   TrackBuilder builder(track, text);
   const int power = facts.kind == FileKind::euroc ? 0 : 9;
   do {
     if (is_comment(rows.text())) continue;
     row.read(rows);
     TrackedPose sample = row.pose();
-    const auto time_ns = exact_ns(row.time(), power, false);
+    const auto time_ns = tables::exact_ns(row.time(), power, ',');
     if (!time_ns)
-      rows.refuse(1, shown_cell(row.time()) + " is no time", TrackProblem::no_time, {cut_cell(row.time())});
+      rows.refuse(1, tables::shown_cell(row.time()) + " is no time", TrackProblem::no_time,
+                  {tables::cut_cell(row.time())});
     sample.time_ns = *time_ns;
     builder.add(sample, rows);
   } while (rows.next_filled());

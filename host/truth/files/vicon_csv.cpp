@@ -55,14 +55,14 @@ void settle_rotation(BodyTrack& track, const std::string& angle_unit) {
 }
 
 BodyTrack read_vicon_body(std::string_view text, std::string_view file, const ViconBody& body) {
-  Rows rows(text, file);
+  tables::Rows rows(text, file);
   while (rows.next() && rows.line() < body.section_line + 4) {
   }
   BodyTrack track;
   track.name = body.name.name;
   track.id = body.name.id;
   PoseRow row(body.columns);
-  FrameNumbers frames(body.columns.dialect.decimal_comma());
+  FrameNumbers frames(body.columns.separator);
   std::optional<std::int64_t> first;
   TrackBuilder builder(track, text);
   std::int64_t between = 0;

@@ -13,7 +13,7 @@
 /// Rotation  a quaternion, or three numbers that are a rotation vector (Tracker's default, "helical") or Euler angles XYZ;
 ///           the header does not say which. A robot does not tilt, so the reading with the smaller tilt is taken, and
 ///           facts.rotation says so. Rotation vectors may be longer than half a turn.
-/// Times     (frame - first frame) / rate. Rows with a sub-frame are passed over.
+/// Times     (frame - first frame) / rate. tables::Rows with a sub-frame are passed over.
 /// Lost      empty cells, or a row that ends early.
 namespace astro::truth {
 

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "host/base/error.hpp"
-#include "host/truth/files/rotations.hpp"
+#include "host/formats/tables/units.hpp"
 
 namespace astro::truth {
 namespace {
@@ -29,13 +29,15 @@ std::string subject_of(std::string_view name) {
 }
 
 void set_vicon_column(PoseColumns& columns, std::string_view axis, int at) {
-  constexpr std::string_view kAxes[] = {"TX", "TY", "TZ", "RX", "RY", "RZ", "RW"};
-  constexpr Slot kPlaces[] = {Slot::x, Slot::y, Slot::z, Slot::rx, Slot::ry, Slot::rz, Slot::rw};
+  // The markers of trajectories have X, Y and Z.
+  constexpr std::string_view kAxes[] = {"TX", "TY", "TZ", "RX", "RY", "RZ", "RW", "X", "Y", "Z"};
+  constexpr Slot kPlaces[] = {Slot::x,  Slot::y,  Slot::z, Slot::rx, Slot::ry,
+                              Slot::rz, Slot::rw, Slot::x, Slot::y,  Slot::z};
   const auto* const found = std::find(std::begin(kAxes), std::end(kAxes), axis);
   if (found != std::end(kAxes)) columns[kPlaces[found - std::begin(kAxes)]] = at;
 }
 
-void take_units(const Rows& rows, const std::vector<std::string_view>& units, ViconBody& body) {
+void take_units(const tables::Rows& rows, const std::vector<std::string_view>& units, ViconBody& body) {
   const auto unit_at = [&](Slot slot) {
     const int at = body.columns[slot];
     return at >= 0 && static_cast<std::size_t>(at) < units.size() ? units[static_cast<std::size_t>(at)]
@@ -43,10 +45,10 @@ void take_units(const Rows& rows, const std::vector<std::string_view>& units, Vi
   };
   PoseColumns& columns = body.columns;
   body.length_unit = unit_at(Slot::x);
-  const auto metres = metres_per(body.length_unit);
+  const auto metres = tables::metres_per(body.length_unit);
   if (!metres)
-    rows.refuse(columns[Slot::x] + 1, shown_cell(body.length_unit) + " is no unit of length",
-                TrackProblem::length_unit_unknown, {cut_cell(body.length_unit)});
+    rows.refuse(columns[Slot::x] + 1, tables::shown_cell(body.length_unit) + " is no unit of length",
+                TrackProblem::length_unit_unknown, {tables::cut_cell(body.length_unit)});
   columns.metres = *metres;
   if (columns[Slot::rx] < 0 || columns[Slot::ry] < 0 || columns[Slot::rz] < 0) {
     for (const Slot slot : {Slot::rx, Slot::ry, Slot::rz, Slot::rw}) columns[slot] = -1;
@@ -55,10 +57,10 @@ void take_units(const Rows& rows, const std::vector<std::string_view>& units, Vi
   } else {
     columns.rotation = RotationKind::rotation_vector;
     body.angle_unit = unit_at(Slot::rz);
-    const auto radians = radians_per(body.angle_unit);
+    const auto radians = tables::radians_per(body.angle_unit);
     if (!radians)
-      rows.refuse(columns[Slot::rz] + 1, shown_cell(body.angle_unit) + " is no unit of angle",
-                  TrackProblem::angle_unit_unknown, {cut_cell(body.angle_unit)});
+      rows.refuse(columns[Slot::rz] + 1, tables::shown_cell(body.angle_unit) + " is no unit of angle",
+                  TrackProblem::angle_unit_unknown, {tables::cut_cell(body.angle_unit)});
     columns.radians = *radians;
   }
 }
@@ -74,14 +76,14 @@ ViconBody body_at(const std::vector<std::string_view>& axes, std::size_t begin, 
 }
 
 /// Reads the header of a section behind its title, and adds the bodies that have a position.
-void read_section_header(Rows& rows, Dialect dialect, std::vector<ViconBody>& bodies) {
+void read_section_header(tables::Rows& rows, char separator, std::vector<ViconBody>& bodies) {
   const int section_line = rows.line();
   const auto header_row = [&] {
     if (!rows.next()) rows.refuse("the file ends within the header of a section");
-    return split_header(rows, dialect.separator);
+    return tables::split_row(rows, separator);
   };
   const auto rate_cells = header_row();
-  const auto rate = rate_cells.empty() ? std::nullopt : cell_number(rate_cells[0], dialect.decimal_comma());
+  const auto rate = rate_cells.empty() ? std::nullopt : tables::cell_number(rate_cells[0], separator);
   if (!rate || !(*rate > 0.001 && *rate < 1e6)) rows.refuse("the frame rate in Hz is missing");
   const auto names = header_row();
   const auto axes = header_row();
@@ -96,7 +98,7 @@ void read_section_header(Rows& rows, Dialect dialect, std::vector<ViconBody>& bo
     if (columns[Slot::x] < 0 || columns[Slot::y] < 0 || columns[Slot::z] < 0) continue;
     if (bodies.size() >= kMostViconBodies) rows.refuse("the file has more than 10000 bodies");
     body.name = {subject_of(without_prefix(names[i])), std::string(without_prefix(names[i]))};
-    body.columns.dialect = dialect;
+    body.columns.separator = separator;
     body.rate_hz = *rate;
     body.section_line = section_line;
     take_units(rows, units, body);
@@ -116,26 +118,28 @@ bool is_vicon_title(std::string_view cell) {
 }
 
 std::vector<ViconBody> find_vicon_bodies(std::string_view text, std::string_view file) {
-  Rows rows(text, file);
-  std::vector<ViconBody> bodies;
+  tables::Rows rows(text, file);
+  std::vector<ViconBody> bodies, markers;  // single markers count only if there is no body
   while (rows.next_filled()) {
-    const Dialect dialect{rows.text().find(';') != rows.text().npos ? ';' : ','};
+    const char separator = rows.text().find(';') != rows.text().npos ? ';' : ',';
     std::optional<std::string_view> rest = rows.text();
     std::string_view title;
-    take_cell(rest, dialect.separator, title);
+    tables::take_cell(rest, separator, title);
     if (!is_vicon_title(title))
-      rows.refuse(shown_cell(title) + " is no title of a section of a Vicon export");
-    if (title == "Objects" || title == "Segments" || title == "Joints") {
+      rows.refuse(tables::shown_cell(title) + " is no title of a section of a Vicon export");
+    const bool of_bodies = title == "Objects" || title == "Segments" || title == "Joints";
+    if (of_bodies || title == "Trajectories") {
       // A file that a spreadsheet saved has its separators in every row but perhaps not in the title.
-      Rows ahead = rows;
+      tables::Rows ahead = rows;
       for (int i = 0; i < 3; ++i) ahead.next();
-      read_section_header(rows, dialect_of(ahead.text()), bodies);
+      read_section_header(rows, tables::separator_of(ahead.text()), of_bodies ? bodies : markers);
     }
     while (rows.next() && !rows.is_blank()) {
     }
   }
+  if (bodies.empty()) bodies = std::move(markers);
   if (bodies.empty())
-    throw Error("'" + std::string(file) + "' holds no body in a section Objects or Segments");
+    throw Error("'" + std::string(file) + "' holds no body in a section Objects, Segments or Trajectories");
   return bodies;
 }
 

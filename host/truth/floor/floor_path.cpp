@@ -170,10 +170,20 @@ double correlation_with(const std::vector<FloorPoint>& points, const Turning& wh
   return std::abs(forward) > std::abs(both_ways) ? forward : both_ways;
 }
 
+/// From the rightmost to the leftmost heading.
+double turned(const Turning& turning) {
+  double least = 0, most = 0;
+  for (const TurningSample& sample : turning) {
+    least = std::min(least, sample.angle_rad);
+    most = std::max(most, sample.angle_rad);
+  }
+  return most - least;
+}
+
 /// Compares with the wheels: the clocks, and left against right.
 void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMotion> wheels,
                       FloorFindings& findings) {
-  constexpr double kSure = 0.3;
+  constexpr double kSure = 0.3, kLeastTurn_rad = 0.15;  // less is how a robot sways about a line
   // With a wrong unit the speeds would outweigh the turn rates.
   const double to_metres = findings.length_factor == 1 ? 1 / findings.unit_ratio : 1;
   findings.clock = match_clocks(points, to_metres, wheels);
@@ -183,8 +193,9 @@ void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMoti
          "recorded together"});
     return;
   }
-  findings.turning_correlation = correlation_with(points, turning_of(wheels), *findings.clock);
-  if (findings.turning_correlation > -kSure) return;
+  const Turning by_wheels = turning_of(wheels);
+  findings.turning_correlation = correlation_with(points, by_wheels, *findings.clock);
+  if (findings.turning_correlation > -kSure || turned(by_wheels) < kLeastTurn_rad) return;
   findings.turns_against_wheels = true;
   if (findings.up_given) {
     findings.remarks.push_back(

@@ -149,14 +149,14 @@ BodyInspection inspect(BodyTrack& track) {
   return out;
 }
 
-Inspection inspect(std::string_view text, std::string_view file) {
+Inspection inspect(std::string_view text, std::string_view file, std::string_view columns) {
   constexpr std::size_t kMostBodies = 50;
-  const std::vector<BodyName> bodies = bodies_in(text, file);
+  const std::vector<BodyName> bodies = bodies_in(text, file, columns);
   Inspection out;
-  out.kind = recognise(text);
+  out.kind = columns.empty() ? recognise(text) : FileKind::plain;
   out.bodies_left_out = bodies.size() - std::min(bodies.size(), kMostBodies);
   for (std::size_t i = 0; i < bodies.size() - out.bodies_left_out; ++i) {
-    BodyTrack track = read_track(text, file, bodies[i].id.empty() ? bodies[i].name : bodies[i].id);
+    BodyTrack track = read_track(text, file, bodies[i].id.empty() ? bodies[i].name : bodies[i].id, columns);
     out.bodies.push_back(inspect(track));
   }
   return out;

@@ -42,7 +42,7 @@ struct Inspection {
 
 /// Throws astro::Error if the recording cannot be read (tracker_file.hpp).
 /// Cost  one reading per body.
-Inspection inspect(std::string_view text, std::string_view file);
+Inspection inspect(std::string_view text, std::string_view file, std::string_view columns = {});
 
 /// The same of a track that is already in memory; marks what is lost in it.
 BodyInspection inspect(BodyTrack& track);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "host/base/order_statistics.hpp"
 #include "host/base/text/degrees.hpp"
 
 namespace astro::truth {
@@ -183,6 +184,38 @@ std::size_t mark_filled(Samples& samples, const Values& digits) {
   return marked;
 }
 
+/// Marks samples between two jumps, away from a place and back to it.
+std::size_t mark_jumped(Samples& samples) {
+  constexpr double kFar = 6, kLeast_m = 0.03, kLongest_s = 1,
+                   kBack = 1.5;  // in steps that hardly any exceeds
+  constexpr std::size_t kFewest = 20;
+  std::vector<std::size_t> valid;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i].valid) valid.push_back(i);
+  if (valid.size() < kFewest) return 0;
+  const auto step_m = [&](std::size_t from, std::size_t to) {
+    return distance_m(samples[valid[from]].pose, samples[valid[to]].pose);
+  };
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < valid.size(); ++i) steps.push_back(step_m(i - 1, i));
+  const double usual = at_rank(steps, steps.size() - 1 - steps.size() / 10);
+  const double far = std::max(kLeast_m, kFar * usual);
+  std::size_t marked = 0;
+  for (std::size_t i = 1; i < valid.size(); ++i) {
+    if (steps[i - 1] < far) continue;
+    for (std::size_t k = i + 1; k < valid.size(); ++k) {
+      if (seconds_between(samples[valid[i - 1]], samples[valid[k]]) > kLongest_s) break;
+      if (steps[k - 1] < far) continue;
+      if (step_m(i - 1, k) > kBack * usual * static_cast<double>(k - i + 1) + kLeast_m / 3) continue;
+      for (std::size_t at = i; at < k; ++at) samples[valid[at]].valid = false;
+      marked += k - i;
+      i = k;
+      break;
+    }
+  }
+  return marked;
+}
+
 }  // namespace
 
 LostSamples mark_lost(BodyTrack& track) {
@@ -195,6 +228,7 @@ LostSamples mark_lost(BodyTrack& track) {
   const bool noisy = is_noisy(samples, digits);
   lost.repeated = mark_repeated(samples, digits, noisy);
   if (noisy) lost.filled = mark_filled(samples, digits);
+  lost.jumped = mark_jumped(samples);
   return lost;
 }
 

@@ -93,6 +93,77 @@ TEST_F(Import, FindsTheFactorsOfARobotThatHasNeverHeardOfThisProgram) {
   EXPECT_EQ(found.judgement.verdict, calibration::Verdict::better);
 }
 
+TEST_F(Import, ADriveOnALineTakesTheUpAxisOfTheOthers) {
+  const auto write = [&](const std::string& name, const Trajectory& run) {
+    return DriveFiles{test::write_counts(at("w" + name), run),
+                      test::write_tum(at("t" + name), run, test::y_up)};
+  };
+  const Trajectory line = simulation::study::synthetic_drive(simulation::study::line_course(2),
+                                                             calibration::astro_drive(), "line", 7);
+  std::vector<DriveFiles> files{write("line", line)};
+  EXPECT_THAT(told_by([&] { import_drives(files, choices()); }).kind, Kind(truth::FloorProblem::no_up_axis));
+  for (int i = 0; i < 3; ++i)
+    files.push_back(write(std::to_string(i), drives()[static_cast<std::size_t>(i)]));
+  const ImportedDrives imported = import_drives(files, choices());
+  EXPECT_EQ(imported.set.names, (std::vector<std::string>{"wline", "w0", "w1", "w2"}));
+  EXPECT_EQ(truth::axis_text(imported.reports[0].floor.up), "y");
+  EXPECT_THAT(imported.reports[0].remarks,
+              Contains(Tells(ImportProblem::up_axis_of_other, "wline", "y", "w0")));
+  EXPECT_NEAR(experiment::calibrate(imported.set, {experiment::MethodChoice::Family::ml, {}}).factors.b_m,
+              calibration::astro_drive().actual.b_m, 1e-3);
+}
+
+/// The wheels of a drive after a fault of wiring.
+template <class Fault>
+Trajectory with_wheels(Trajectory run, Fault fault) {
+  for (calibration::WheelSample& sample : run.wheels) fault(sample);
+  return run;
+}
+
+TEST_F(Import, EncodersThatCountBackwardAreToldFromExchangedOnes) {
+  const auto swapped = [](calibration::WheelSample& s) { std::swap(s.left_m, s.right_m); };
+  const auto reversed = [](calibration::WheelSample& s) { s.left_m = -s.left_m, s.right_m = -s.right_m; };
+  const auto both = [&](calibration::WheelSample& s) { swapped(s), reversed(s); };
+  const auto imported = [&](const auto& fault, bool swap, bool reverse) {
+    ImportChoices stated = choices();
+    stated.wheels.exchanged = swap;
+    stated.wheels.reversed = reverse;
+    const DriveFiles pair{test::write_counts(at("w"), with_wheels(drives()[0], fault)),
+                          test::write_tum(at("t"), drives()[0])};
+    return import_drives(std::vector{pair}, stated);
+  };
+  const auto kind = [&](const auto& fault, bool swap, bool reverse) {
+    return told_by([&] { imported(fault, swap, reverse); }).kind;
+  };
+  EXPECT_EQ(kind(swapped, false, false), Kind(ImportProblem::turns_against_wheels));
+  EXPECT_EQ(kind(swapped, false, true), Kind(ImportProblem::drives_backward));
+  EXPECT_NO_THROW(imported(swapped, true, false));
+  EXPECT_EQ(kind(reversed, false, false), Kind(ImportProblem::encoders_reversed));
+  EXPECT_EQ(kind(reversed, true, false), Kind(ImportProblem::drives_backward))
+      << "the left factor would go to the right wheel";
+  EXPECT_NO_THROW(imported(reversed, false, true));
+  EXPECT_EQ(kind(both, false, false), Kind(ImportProblem::drives_backward));
+  EXPECT_NO_THROW(imported(both, true, true));
+}
+
+TEST_F(Import, WheelsThatCannotBeWhatTheyAreSaidToBeAreTold) {
+  const auto kind = [&](const auto& fault) {
+    const DriveFiles pair{test::write_counts(at("w"), with_wheels(drives()[0], fault)),
+                          test::write_tum(at("t"), drives()[0])};
+    return told_by([&] { import_drives(std::vector{pair}, choices()); }).kind;
+  };
+  EXPECT_EQ(kind([](auto& s) { s.left_m = s.right_m = 1; }), Kind(ImportProblem::wheels_stand));
+  EXPECT_EQ(kind([](auto& s) { s.left_m = 1; }), Kind(ImportProblem::wheel_stands));
+  EXPECT_EQ(kind([](auto& s) { s.left_m = s.right_m; }), Kind(ImportProblem::wheels_equal));
+  double left = 0, right = 0;
+  EXPECT_EQ(kind([&](auto& s) {
+              const calibration::WheelSample now = s;
+              s.left_m -= std::exchange(left, now.left_m);
+              s.right_m -= std::exchange(right, now.right_m);
+            }),
+            Kind(ImportProblem::per_interval_likely));
+}
+
 TEST_F(Import, FindsTheSameWhateverTheFormatsOfTheWheels) {
   const WheelFactors expected = by_counts_and_tum();
   const auto tum = [](auto path, auto& run) { return test::write_tum(path, run); };
@@ -275,7 +346,7 @@ TEST_F(Import, RefusesWheelsThatLeap) {
 TEST_F(Import, RefusesACounterThatStartsAgain) {
   std::string rows = "time_s,left_counts,right_counts\n";
   for (int i = 0; i < 100; ++i) rows += fmt::format("{},{},{}\n", 0.02 * i, 20000 + 60 * i, 60 * i);
-  std::ofstream(at("w.csv")) << rows << "2.0,0,0\n2.02,60,60\n";
+  std::ofstream(at("w.csv")) << rows << "2.0,0,6000\n2.02,60,6060\n";
   const std::vector<DriveFiles> pair{{at("w.csv"), test::write_tum(at("t.tum"), drives()[0])}};
   EXPECT_THAT(told_by([&] { import_drives(pair, choices()); }),
               Tells(ImportProblem::leaps, "w", "1.67", "1.980", "2.000"));

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/truth/files/rows.hpp"
+#include "host/truth/files/track_problem.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "tests/host/truth/files/own_recordings.hpp"
 #include "tests/host/truth/recorded_files.hpp"

@@ -6,7 +6,7 @@
 #include "host/base/error.hpp"
 #include "host/truth/files/plain_csv.hpp"
 #include "host/truth/files/rotations.hpp"
-#include "host/truth/files/rows.hpp"
+#include "host/truth/files/track_problem.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "host/truth/files/tum.hpp"
 #include "host/truth/files/vicon_csv.hpp"
@@ -239,16 +239,117 @@ TEST(TrackerFile, EveryRealRecordingIsRecognised) {
     EXPECT_EQ(recognise(text_of_file(shared_file("samples/" + name))), kind) << name;
 }
 
-TEST(TextFormats, TimesAreExact) {
-  EXPECT_EQ(exact_ns("1700000000.123456789", 9, false), 1'700'000'000'123'456'789);
-  EXPECT_EQ(exact_ns("1.403715529112143517e+09", 9, false), 1'403'715'529'112'143'517);
-  EXPECT_EQ(exact_ns("-0.0000000015", 9, false), -2);
-  EXPECT_EQ(exact_ns("12,5", 6, true), 12'500'000);
-  EXPECT_EQ(exact_ns("1e3", 0, false), 1000);
-  EXPECT_EQ(exact_ns("0.00000000000000000000000000001", 9, false), 0);
-  for (const char* bad :
-       {"", ".", "e5", "1e", "1e99", "nan", "0x10", "1.2.3", "99999999999", "1e-99999999999"})
-    EXPECT_EQ(exact_ns(bad, 9, false), std::nullopt) << bad;
+TEST(PlainCsv, NamesInAnyStyleAreUnderstood) {
+  for (const char* text : {"timeMs,posX,posY,yaw\n0,1,2,0.5\n10,1.1,2,0.5\n",
+                           "Time (ms);X pos (m);Y pos (m);Heading (rad)\n0;1;2;0,5\n10;1,1;2;0,5\n",
+                           "t [ms]\tx_position\ty_position\ttheta\n0\t1\t2\t0.5\n10\t1.1\t2\t0.5\n",
+                           "# time x y heading\n# ms m m rad\n0 1 2 0.5\n10 1.1 2 0.5\n"}) {
+    const BodyTrack track = read_track(text, "p.csv");
+    ASSERT_EQ(track.samples.size(), 2U) << text;
+    EXPECT_EQ(track.samples[1].time_ns, 10'000'000) << text;
+    EXPECT_DOUBLE_EQ(track.samples[1].pose.x_m, 1.1) << text;
+    EXPECT_NEAR(turn_about_z(track.samples[1].pose), 0.5, 1e-12) << text;
+  }
+}
+
+TEST(PlainCsv, RollPitchAndYawAreTurnsAboutZThenYThenX) {
+  const BodyTrack track =
+      read_track("time_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,10,20,30\n", "p.csv");
+  const Quaternion expected = from_euler("Z", {0, 0, std::numbers::pi / 6}) *
+                              from_euler("Y", {0, std::numbers::pi / 9, 0}) *
+                              from_euler("X", {std::numbers::pi / 18, 0, 0});
+  const Quaternion apart = conjugate(expected) * rotation_of(track.samples.at(0).pose);
+  EXPECT_NEAR(std::abs(apart.w), 1, 1e-12);
+}
+
+/// A circle of two metres, driven once, with its heading in this unit and perhaps wrapped.
+std::string circle(double unit, bool wrapped) {
+  std::string text = "time_s,x_m,y_m,heading\n";
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 0.035 * i;
+    const double heading = wrapped ? std::remainder(angle, 2 * std::numbers::pi) : angle;
+    text += std::to_string(0.1 * i) + "," + std::to_string(std::sin(angle)) + "," +
+            std::to_string(1 - std::cos(angle)) + "," + std::to_string(heading * unit) + "\n";
+  }
+  return text;
+}
+
+TEST(PlainCsv, TheDirectionOfMotionShowsTheUnitOfTheHeading) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  for (const bool wrapped : {false, true})
+    for (const double unit : {1.0, kDegrees}) {
+      const BodyTrack track = read_track(circle(unit, wrapped), "p.csv");
+      EXPECT_NEAR(std::remainder(turn_about_z(track.samples.at(150).pose) - 5.25, 2 * std::numbers::pi), 0,
+                  1e-4);
+      EXPECT_THAT(track.facts.remarks, testing::ElementsAre(Tells(TrackRemark::heading_unit_assumed,
+                                                                  unit == 1 ? "radians" : "degrees")));
+    }
+}
+
+TEST(PlainCsv, RowsOfSeveralTagsAreBodies) {
+  const std::string text =
+      "timestamp,tag_id,x,y\n1700000000.0,5,1,2\n1700000000.0,6,3,4\n1700000000.1,5,1.5,2\n";
+  EXPECT_THAT([&] { read_track(text, "file"); }, HoldsSeveralBodies("5", "6"));
+  EXPECT_EQ(read_track(text, "p.csv", "5").samples.size(), 2U);
+  EXPECT_EQ(read_track(text, "p.csv", "6").samples.at(0).pose.x_m, 3);
+  EXPECT_EQ(read_track("t_s,id,x_m,y_m\n0,5,1,2\n1,5,1,2\n", "p.csv").samples.size(), 2U)
+      << "one tag needs no choice";
+}
+
+TEST(PlainCsv, ColumnsCanBeStatedFromOutside) {
+  const BodyTrack track = read_track("0.5 1 2\n0.6 1.1 2\n", "p.csv", "", "time_s,x_m,y_m");
+  EXPECT_EQ(track.samples.at(1).time_ns, 600'000'000);
+  EXPECT_EQ(read_track("a,b,c\n1,2,3\n2,2,3\n", "p.csv", "", "a=time_s,b=y_mm,c=x_mm").samples.at(0).pose.y_m,
+            0.002);
+  EXPECT_THAT(refusal("1 2 3\n4 5 6\n"), Tells(TrackProblem::no_header, "file"));
+  EXPECT_THAT(refusal("a,b,c\n1,2,3\n"), Tells(TrackProblem::no_columns, "file", "a", "b", "c"));
+}
+
+TEST(QualisysTsv, BodiesHaveTheirMatrixAndLostOnesNone) {
+  const auto row = [](const std::string& before, double x, double angle, double residual) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    std::string text = before + std::to_string(x) + "\t500.0\t80.0\t0\t0\t0\t" + std::to_string(residual);
+    for (const double m : {c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0}) text += "\t" + std::to_string(m);
+    return text + "\n";
+  };
+  const std::string head =
+      "NO_OF_FRAMES\t3\nNO_OF_CAMERAS\t8\nNO_OF_BODIES\t1\nFREQUENCY\t100\nTIME_STAMP\t2024-05-01, "
+      "12:34:56.250\t5.0\n"
+      "DATA_INCLUDED\t6D\nBODY_NAMES\tastro\n";
+  const std::string rows = row("7\t0.06000\t", 1000, 0.5, 0.4) + row("8\t0.07000\t", 0, 0, -1) +
+                           row("10\t0.09000\t", 1010, 0.6, 0.4);
+  const BodyTrack track = read_track(head + "Frame\tTime\tastro X\tY\tZ\n" + rows, "q.tsv");
+  EXPECT_EQ(track.facts.kind, FileKind::qualisys);
+  EXPECT_EQ(track.facts.start_time, "2024-05-01T12:34:56.250");
+  ASSERT_EQ(track.samples.size(), 3U);
+  EXPECT_EQ(track.samples[2].time_ns, 100'000'000);
+  EXPECT_NEAR(track.samples[2].pose.x_m, 1.01, 1e-12);
+  EXPECT_NEAR(turn_about_z(track.samples[2].pose), 0.6, 1e-6);
+  EXPECT_FALSE(track.samples[1].valid);
+  EXPECT_EQ(track.facts.dropped_frames, 1);
+}
+
+TEST(QualisysTsv, MarkersHavePositionsOnly) {
+  const std::string text =
+      "NO_OF_FRAMES\t2\nNO_OF_MARKERS\t2\nFREQUENCY\t50\nDATA_INCLUDED\t3D\nMARKER_NAMES\tfront\tback\n"
+      "1\t2\t3\t4\t5\t6\n1\t2\t3\t0\t0\t0\n";
+  EXPECT_THAT([&] { read_track(text, "file"); }, HoldsSeveralBodies("front", "back"));
+  const BodyTrack track = read_track(text, "q.tsv", "back");
+  EXPECT_DOUBLE_EQ(track.samples.at(0).pose.y_m, 0.005);
+  EXPECT_FALSE(track.samples.at(1).valid);
+  EXPECT_EQ(track.samples[1].time_ns, 20'000'000);
+  EXPECT_THAT(refusal("NO_OF_FRAMES\t1\nMARKER_NAMES\ta\nFREQUENCY\t50\nX\tY\tZ\n1\t2\n"),
+              Tells(TrackProblem::columns_differ, "file", "5", "2", "3"));
+}
+
+TEST(ViconCsv, SingleMarkersCountWhereThereIsNoBody) {
+  const BodyTrack track = read_track(
+      "Trajectories\n100\n,,robot:top,,,robot:side,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n"
+      "1,0,1,2,3,4,5,6\n2,0,1,2,3,,,\n",
+      "v.csv", "robot:side");
+  EXPECT_DOUBLE_EQ(track.samples.at(0).pose.x_m, 0.004);
+  EXPECT_FALSE(track.samples.at(1).valid);
+  EXPECT_EQ(track.facts.rotation_kind, RotationKind::none);
 }
 
 }  // namespace

@@ -119,5 +119,22 @@ TEST(LostTracking, ARealTakeHasItsEmptyCellsAndFewRepetitions) {
   EXPECT_EQ(lost.at_zero + lost.filled, 0U);
 }
 
+TEST(LostTracking, AMarkerThatIsTakenForAnotherForAMomentIsLost) {
+  for (const double noise_m : {0.0, 1e-4, 5e-3}) {
+    BodyTrack track = drive(noise_m);
+    for (std::size_t i = 250; i < 270; ++i) track.samples[i].pose.y_m += 0.3;
+    const LostSamples lost = mark_lost(track);
+    EXPECT_EQ(lost.jumped, 20U) << noise_m;
+    EXPECT_FALSE(track.samples[250].valid || track.samples[269].valid);
+    EXPECT_TRUE(track.samples[249].valid && track.samples[270].valid);
+  }
+}
+
+TEST(LostTracking, ABodyThatIsCarriedAwayIsNotLost) {
+  BodyTrack track = drive(1e-4);
+  for (std::size_t i = 300; i < track.samples.size(); ++i) track.samples[i].pose.y_m += 0.3;
+  EXPECT_EQ(mark_lost(track).jumped, 0U);
+}
+
 }  // namespace
 }  // namespace astro::truth

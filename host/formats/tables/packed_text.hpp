@@ -5,7 +5,7 @@
 #include "host/base/byte_source.hpp"
 
 /// Text that was packed with gzip, as archives of recordings keep it.
-namespace astro::truth {
+namespace astro::tables {
 
 /// Why a file cannot be unpacked. Values: its name, and the byte up to which it could be, or how many MiB can
 /// be held.
@@ -17,4 +17,4 @@ bool is_gzip(ByteView bytes);
 /// MiB more. Throws astro::Error naming `name` if it is damaged, is cut off, or would take more.
 Bytes unpacked(ByteSource& file, const std::string& name);
 
-}  // namespace astro::truth
+}  // namespace astro::tables

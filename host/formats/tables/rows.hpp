@@ -9,37 +9,29 @@
 #include "host/base/error.hpp"
 
 /// Rows and cells of large tables, without a copy of any of them.
-namespace astro::truth {
+namespace astro::tables {
 
-/// What is wrong with a recording. Values: the file; then, except for the first two, the line, the column if
-/// it is known, and the text there. For units_differ the unit of the columns before comes first.
-enum class TrackProblem {
-  no_header,
-  no_rigid_body,
-  length_unit_unknown,
-  angle_unit_unknown,
-  unit_of_other_quantity,
-  units_differ,
-  not_a_number,
-  no_frame_number,
-  no_time,
-  time_not_increasing
-};
+/// Why text is no table. Values: the file; then the byte that is zero, counted from 1 (not_plain_text), or the line
+/// (too_many_cells).
+enum class TextProblem { empty, not_plain_text, too_many_cells };
 
 /// Walks over the lines of a text: LF, CRLF or CR, with or without a byte order mark.
 class Rows {
  public:
-  /// Throws astro::Error if the text has a NUL byte (UTF-16, or no text at all).
+  /// Throws astro::Error if the text has a NUL byte.
   Rows(std::string_view text, std::string_view file);
 
   bool next();         // false after the last line
   bool next_filled();  // the same, past lines that hold nothing but separators
+  bool next_data();    // the same, and past comments
   std::string_view text() const { return line_; }
   int line() const { return number_; }  // from 1
   std::string_view file() const { return file_; }
 
   /// Whether the line holds nothing but blanks and separators.
   bool is_blank() const;
+  /// Whether it begins with #, % or //.
+  bool is_comment() const;
 
   /// Values of the error: the file, the line, the column (from 1), and `more`.
   [[noreturn]] void refuse(const std::string& what, Kind kind = {},
@@ -53,23 +45,20 @@ class Rows {
   int number_ = 0;
 };
 
-/// How a table is written.
-struct Dialect {
-  char separator = ',';  // ' ' stands for any number of blanks and tabs
-  bool decimal_comma() const { return separator == ';'; }
-};
-
-/// The separator that a header row uses: the most frequent of , ; and tab outside of quotes, else blanks.
-Dialect dialect_of(std::string_view line);
+/// The separator that a row uses: the most frequent of , ; and tab outside of quotes, else ' ', which stands for any number of
+/// blanks and tabs.
+char separator_of(std::string_view line);
 
 /// Takes the first cell off `rest`, without outer blanks and quotes. False if nothing is left.
 bool take_cell(std::optional<std::string_view>& rest, char separator, std::string_view& cell);
 
-/// All cells of a header row. More than 100 000 are refused.
-std::vector<std::string_view> split_header(const Rows& rows, char separator);
+/// All cells of a row into `cells`. Throws astro::Error for more than 100 000.
+void split_row(const Rows& rows, char separator, std::vector<std::string_view>& cells);
+std::vector<std::string_view> split_row(const Rows& rows, char separator);
 
-/// A finite number; nothing if the cell is not one.
-std::optional<double> cell_number(std::string_view cell, bool decimal_comma);
+/// A finite number; nothing if the cell is not one. A comma is a decimal comma, as in "0,5" and "1.234,5", or groups digits,
+/// as in "1,234.5". A cell of a table that is separated by commas may be either, as "1,250", and is no number then.
+std::optional<double> cell_number(std::string_view cell, char separator);
 
 /// The cell for a message: 40 characters at most.
 std::string cut_cell(std::string_view cell);
@@ -77,7 +66,7 @@ std::string cut_cell(std::string_view cell);
 std::string shown_cell(std::string_view cell);
 
 /// A time with all its digits: a decimal number, perhaps with an exponent, times 10^power in nanoseconds
-/// (seconds: 9). Rounded to the nearest. Nothing if it is no number or does not fit into 63 bits.
-std::optional<std::int64_t> exact_ns(std::string_view cell, int power, bool decimal_comma);
+/// (seconds: 9). Rounded to the nearest. Nothing if it is no number or does not fit into 61 bits.
+std::optional<std::int64_t> exact_ns(std::string_view cell, int power, char separator);
 
-}  // namespace astro::truth
+}  // namespace astro::tables

@@ -1,11 +1,11 @@
-#include "host/truth/files/packed_text.hpp"
+#include "host/formats/tables/packed_text.hpp"
 
 #include <gmock/gmock.h>
 
 #include "tests/support/base/gzip.hpp"
 #include "tests/support/base/remarks.hpp"
 
-namespace astro::truth {
+namespace astro::tables {
 namespace {
 
 using support::gzip;
@@ -67,4 +67,4 @@ TEST(PackedText, ThatWouldFillTheMemoryIsRefused) {
 }
 
 }  // namespace
-}  // namespace astro::truth
+}  // namespace astro::tables

@@ -1,4 +1,4 @@
-#include "host/truth/files/packed_text.hpp"
+#include "host/formats/tables/packed_text.hpp"
 
 #include <zlib.h>
 
@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/truth/files/body_track.hpp"
 
-namespace astro::truth {
+namespace astro::tables {
 namespace {
 
 constexpr int kGzipWindow = 16 + MAX_WBITS;  // zlib's way to say: gzip's header, the largest window
@@ -32,7 +31,8 @@ class Inflater {
 /// Collects a text, unless it would take too much memory together with its poses, or these when they are put
 /// on the floor.
 class BoundedText {
-  static constexpr std::size_t kBytesOnFloor = 152;  // with what it is made from, for each pose
+  // A line becomes a pose, which is put on the floor.
+  static constexpr std::size_t kBytesOfPose = 72, kBytesOnFloor = 152;
 
  public:
   explicit BoundedText(std::size_t most_bytes) : most_(most_bytes) {
@@ -42,7 +42,7 @@ class BoundedText {
   /// False if it would take more than it may.
   bool add(ByteView piece) {
     lines_ += static_cast<std::size_t>(std::count(piece.begin(), piece.end(), std::uint8_t{'\n'}));
-    if (text_.size() + piece.size() + sizeof(TrackedPose) * lines_ > most_) return false;
+    if (text_.size() + piece.size() + kBytesOfPose * lines_ > most_) return false;
     if (kBytesOnFloor * lines_ > most_) return false;
     append(text_, piece);
     return true;
@@ -116,4 +116,4 @@ bool is_gzip(ByteView bytes) { return bytes.size() > 2 && bytes[0] == 0x1f && by
 
 Bytes unpacked(ByteSource& file, const std::string& name) { return Unpacking(file, name).text(); }
 
-}  // namespace astro::truth
+}  // namespace astro::tables

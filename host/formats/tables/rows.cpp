@@ -1,19 +1,21 @@
-#include "host/truth/files/rows.hpp"
+#include "host/formats/tables/rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #include "host/base/error.hpp"
 #include "host/base/text/trimmed.hpp"
 
-namespace astro::truth {
+namespace astro::tables {
 namespace {
 
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kBlanks = " \t";
-constexpr std::size_t kMostHeaderCells = 100'000, kMostShown = 40;
+constexpr std::size_t kMostCells = 100'000, kMostShown = 40, kLongestNumber = 64;
 
 std::string_view without_quotes(std::string_view cell) {
   while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
@@ -41,12 +43,12 @@ struct Decimal {
 };
 
 /// Takes digits with at most one point off `text`.
-Decimal take_digits(std::string_view& text, char point) {
+Decimal take_digits(std::string_view& text) {
   Decimal out;
   bool fraction = false, full = false;
   for (; !text.empty(); text.remove_prefix(1)) {
     const char c = text.front();
-    if (c == point && !fraction) {
+    if (c == '.' && !fraction) {
       fraction = true;
       continue;
     }
@@ -60,13 +62,46 @@ Decimal take_digits(std::string_view& text, char point) {
   return out;
 }
 
+/// Whether `mark` stands only between groups of three digits, as in 12,345,678.
+bool groups_digits(std::string_view whole, char mark) {
+  if (whole.starts_with('-') || whole.starts_with('+')) whole.remove_prefix(1);
+  std::size_t group = whole.find(mark);
+  if (group == std::string_view::npos || group == 0 || group > 3 || whole.front() == '0') return false;
+  for (std::string_view rest = whole.substr(group); !rest.empty(); rest.remove_prefix(4)) {
+    if (rest.size() < 4 || rest.front() != mark) return false;
+    if (!std::all_of(rest.begin() + 1, rest.begin() + 4, is_digit)) return false;
+  }
+  return std::all_of(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(group), is_digit);
+}
+
+/// The number with a decimal point and without marks between groups of digits; "" if a comma in it can be either. Uses
+/// `buffer` if something has to be changed.
+std::string_view with_decimal_point(std::string_view cell, char separator, std::span<char> buffer) {
+  const std::size_t comma = cell.rfind(',');
+  if (comma == std::string_view::npos) return cell;
+  const std::size_t point = cell.rfind('.');
+  const bool both = point != std::string_view::npos;
+  const char decimal = both && point > comma ? '.' : ',', mark = decimal == '.' ? ',' : '.';
+  const std::string_view whole = cell.substr(0, decimal == '.' ? point : comma);
+  if (both && !groups_digits(whole, mark)) return {};
+  if (!both && separator == ',' && groups_digits(cell, ',')) return {};
+  if (cell.size() > buffer.size()) return {};
+  std::size_t size = 0;
+  for (const char c : cell) {
+    if (c == mark) continue;
+    buffer[size++] = c == decimal ? '.' : c;
+  }
+  return {buffer.data(), size};
+}
+
 }  // namespace
 
 Rows::Rows(std::string_view text, std::string_view file) : rest_(text), file_(file) {
   if (rest_.substr(0, kUtf8Mark.size()) == kUtf8Mark) rest_.remove_prefix(kUtf8Mark.size());
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos)
     throw Error(std::string(file) + " is not plain text: byte " + std::to_string(at + 1) +
-                " is zero: save the table as comma separated UTF-8");
+                    " is zero: save the table as comma separated UTF-8",
+                TextProblem::not_plain_text, {std::string(file), std::to_string(at + 1)});
   end_ = rest_.find('\n') == std::string_view::npos ? '\r' : '\n';
 }
 
@@ -87,7 +122,19 @@ bool Rows::next_filled() {
   return false;
 }
 
-bool Rows::is_blank() const { return line_.find_first_not_of(" \t,;\"") == std::string_view::npos; }
+bool Rows::next_data() {
+  while (next_filled()) {
+    if (!is_comment()) return true;
+  }
+  return false;
+}
+
+bool Rows::is_comment() const {
+  const std::string_view text = trimmed(line_, " \t\"");
+  return text.starts_with('#') || text.starts_with('%') || text.starts_with("//");
+}
+
+bool Rows::is_blank() const { return line_.find_first_not_of(" \t,;|\"") == std::string_view::npos; }
 
 void Rows::refuse(const std::string& what, Kind kind, const std::vector<std::string>& more) const {
   std::vector<std::string> values{std::string(file_), std::to_string(number_)};
@@ -102,7 +149,7 @@ void Rows::refuse(int column, const std::string& what, Kind kind,
   throw Error(values[0] + ", line " + values[1] + ", column " + values[2] + ": " + what, kind, values);
 }
 
-Dialect dialect_of(std::string_view line) {
+char separator_of(std::string_view line) {
   std::size_t commas = 0, semicolons = 0, tabs = 0;
   bool quoted = false;
   for (const char c : line) {
@@ -112,9 +159,9 @@ Dialect dialect_of(std::string_view line) {
     semicolons += c == ';';
     tabs += c == '\t';
   }
-  if (semicolons > 0 && semicolons >= commas) return {';'};
-  if (tabs > commas) return {'\t'};
-  return {commas > 0 ? ',' : ' '};
+  if (semicolons > 0 && semicolons >= commas) return ';';
+  if (tabs > commas) return '\t';
+  return commas > 0 ? ',' : ' ';
 }
 
 bool take_cell(std::optional<std::string_view>& rest, char separator, std::string_view& cell) {
@@ -136,30 +183,31 @@ bool take_cell(std::optional<std::string_view>& rest, char separator, std::strin
   return true;
 }
 
-std::vector<std::string_view> split_header(const Rows& rows, char separator) {
-  std::vector<std::string_view> cells;
+void split_row(const Rows& rows, char separator, std::vector<std::string_view>& cells) {
+  cells.clear();
   std::optional<std::string_view> rest = rows.text();
   for (std::string_view cell; take_cell(rest, separator, cell);) {
-    if (cells.size() == kMostHeaderCells)
-      rows.refuse("the line has more than 100000 cells: this is no table of poses");
+    if (cells.size() == kMostCells)
+      rows.refuse("the line has more than 100000 cells: this is no table of drives",
+                  TextProblem::too_many_cells);
     cells.push_back(cell);
   }
+}
+
+std::vector<std::string_view> split_row(const Rows& rows, char separator) {
+  std::vector<std::string_view> cells;
+  split_row(rows, separator, cells);
   return cells;
 }
 
-std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
-  char buffer[64];
-  if (decimal_comma && cell.find(',') != std::string_view::npos) {
-    if (cell.size() > sizeof buffer) return std::nullopt;
-    std::replace_copy(cell.begin(), cell.end(), buffer, ',', '.');
-    cell = {buffer, cell.size()};
-  }
+std::optional<double> cell_number(std::string_view cell, char separator) {
+  std::array<char, kLongestNumber> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): written first
+  cell = with_decimal_point(cell, separator, buffer);
   if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
-  if (error == std::errc{}) return value;
-  return std::nullopt;
+  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 std::string cut_cell(std::string_view cell) { return std::string(cell.substr(0, kMostShown)); }
@@ -168,11 +216,12 @@ std::string shown_cell(std::string_view cell) {
   return "'" + cut_cell(cell) + (cell.size() > kMostShown ? "...'" : "'");
 }
 
-std::optional<std::int64_t> exact_ns(std::string_view cell, int power, bool decimal_comma) {
+std::optional<std::int64_t> exact_ns(std::string_view cell, int power, char separator) {
+  std::array<char, kLongestNumber> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): written first
+  cell = with_decimal_point(cell, separator, buffer);
   const bool negative = !cell.empty() && cell.front() == '-';
   if (negative || (!cell.empty() && cell.front() == '+')) cell.remove_prefix(1);
-  const char point = decimal_comma && cell.find(',') != std::string_view::npos ? ',' : '.';
-  Decimal decimal = take_digits(cell, point);
+  Decimal decimal = take_digits(cell);
   if (!decimal.any) return std::nullopt;
   int exponent = 0;
   if (!cell.empty()) {
@@ -200,4 +249,4 @@ std::optional<std::int64_t> exact_ns(std::string_view cell, int power, bool deci
   return negative ? -ns : ns;
 }
 
-}  // namespace astro::truth
+}  // namespace astro::tables

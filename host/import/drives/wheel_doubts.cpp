@@ -1,0 +1,90 @@
+#include "host/import/drives/wheel_doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "host/base/error.hpp"
+#include "host/import/drives/robot_geometry.hpp"
+
+namespace astro::importing {
+namespace {
+
+constexpr double kMoved_m = 0.2, kTurned_rad = 0.7;
+
+/// What the wheels did in a drive, in counts.
+struct WheelWays {
+  std::int64_t left = 0, right = 0;  // steps added up
+  std::int64_t as_steps = 0;         // the same of the samples themselves, the mean of both wheels
+  bool same = true;                  // in each step
+};
+
+WheelWays ways_of(const recording::Run& run) {
+  WheelWays ways;
+  for (std::size_t i = 1; i < run.odometry.size(); ++i) {
+    const recording::OdometrySample &before = run.odometry[i - 1], &now = run.odometry[i];
+    const std::int64_t left = std::int64_t{now.left_counts} - before.left_counts,
+                       right = std::int64_t{now.right_counts} - before.right_counts;
+    ways.left += std::abs(left);
+    ways.right += std::abs(right);
+    ways.as_steps += (std::abs(std::int64_t{now.left_counts}) + std::abs(std::int64_t{now.right_counts})) / 2;
+    ways.same = ways.same && left == right;
+  }
+  return ways;
+}
+
+/// How far the ground truth turned: from its rightmost to its leftmost heading, or 0 without headings.
+double turned_rad(const recording::Run& run) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const recording::TruthSample& sample : run.truth) {
+    if (!sample.valid || std::isnan(sample.theta_rad)) continue;
+    least = std::min(least, sample.theta_rad);
+    most = std::max(most, sample.theta_rad);
+  }
+  return std::max(0.0, most - least);
+}
+
+}  // namespace
+
+void require_turning_wheels(const std::string& name, const recording::Run& run,
+                            const truth::FloorFindings& floor) {
+  const WheelWays ways = ways_of(run);
+  const double turned = turned_rad(run);
+  if (floor.path_m < kMoved_m && turned < kTurned_rad) return;
+  if (ways.left == 0 && ways.right == 0)
+    throw Error(
+        "the wheels never turn while the ground truth moves: check the columns or joints of the wheels",
+        ImportProblem::wheels_stand, {name});
+  if (ways.left == 0 || ways.right == 0) {
+    const std::string side = ways.left == 0 ? "left" : "right";
+    throw Error("the " + side + " wheel never turns: check its encoder, and which column or joint it is",
+                ImportProblem::wheel_stands, {name, side});
+  }
+  if (ways.same && turned > kTurned_rad)
+    throw Error("both wheels do exactly the same while the robot turns: one of them stands in both places",
+                ImportProblem::wheels_equal, {name});
+  const double count_m = floor.wheels_path_m / (static_cast<double>(ways.left + ways.right) / 2);
+  const double as_steps_m = count_m * static_cast<double>(ways.as_steps);
+  constexpr double kHardly = 0.2, kSame = 2.5;
+  if (floor.path_m > kMoved_m && floor.wheels_path_m < kHardly * floor.path_m &&
+      as_steps_m > floor.path_m / kSame && as_steps_m < floor.path_m * kSame)
+    throw Error(
+        "the wheels go nowhere, but as far as the ground truth if each sample is the travel since the one "
+        "before",
+        ImportProblem::per_interval_likely, {name});
+}
+
+double forward_share(const recording::Run& run) {
+  double sum = 0, all = 0;
+  for (std::size_t i = 1; i < run.odometry.size(); ++i) {
+    const recording::OdometrySample &before = run.odometry[i - 1], &now = run.odometry[i];
+    const double left = double(now.left_counts) - double(before.left_counts),
+                 right = double(now.right_counts) - double(before.right_counts);
+    sum += left + right;
+    all += std::abs(left + right);
+  }
+  return all > 0 ? sum / all : 0;
+}
+
+}  // namespace astro::importing
