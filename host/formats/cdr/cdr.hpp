@@ -29,6 +29,11 @@ class CdrWriter {
     while ((bytes_.size() - kCdrHeaderBytes) % sizeof(T) != 0) bytes_.push_back(0);
     append(bytes_, value);
   }
+  /// Numbers of `size` bytes each that are little-endian already.
+  void numbers(ByteView raw, std::size_t size) {
+    while (!raw.empty() && (bytes_.size() - kCdrHeaderBytes) % size != 0) bytes_.push_back(0);
+    append(bytes_, raw);
+  }
   void string(std::string_view text) {
     number(static_cast<std::uint32_t>(text.size() + 1));
     append(bytes_, as_bytes(text));

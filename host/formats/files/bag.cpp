@@ -15,6 +15,7 @@
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/db3_reader.hpp"
 #include "host/formats/files/mcap_reader.hpp"
+#include "host/formats/files/ros1_bag_reader.hpp"
 #include "host/formats/files/topic_table.hpp"
 
 namespace astro::bag {
@@ -66,9 +67,9 @@ class ChannelTopics {
     const std::string_view type = schema == nullptr ? std::string_view() : std::string_view(schema->name);
     if (entries_.size() <= channel.id) entries_.resize(std::size_t{channel.id} + 1);
     TopicTable::Entry*& entry = entries_[channel.id];
-    if (entry == nullptr || entry->topic.name != channel.topic || entry->topic.type != type ||
-        entry->topic.encoding != channel.message_encoding)
-      entry = topics_.entry(channel.topic, type, channel.message_encoding);
+    if (entry == nullptr || !entry->is(channel.topic, type, channel.message_encoding))
+      entry = topics_.entry(channel.topic, type, channel.message_encoding,
+                            schema == nullptr ? Definition() : Definition{schema->encoding, schema->text});
     return entry;
   }
 
@@ -113,14 +114,17 @@ class BagReader {
         return read_database(part);
       case BagFileKind::mcap:
         return read_mcap_file(part);
+      case BagFileKind::ros1:
+        return read_ros1_bag({part.file, part.name, part.stored_bytes}, topics_, report_);
       case BagFileKind::zstd:
         if (!part.is_unpacked) return read_packed(part);
         break;
       case BagFileKind::none:
         break;
     }
-    throw Error(part.name + " is not a bag: it begins like no .db3, .mcap or .zstd file: name the right file",
-                BagProblem::not_a_bag, {part.name});
+    throw Error(
+        part.name + " is not a bag: it begins like no .db3, .mcap, .bag or .zstd file: name the right file",
+        BagProblem::not_a_bag, {part.name});
   }
 
   void read_database(const Part& part) {
@@ -175,7 +179,8 @@ class BagReader {
     McapLimits limits;
     limits.packed_bytes = part.stored_bytes;
     ChannelTopics channels(topics_);
-    bool expanded = true, known = true;
+    bool known = true;
+    std::string_view fault;  // of the first message that has one
     McapHandlers handlers;
     handlers.message = [&](const bag::mcap::Channel& channel, const bag::mcap::Schema* schema,
                            const bag::mcap::Message& message) {
@@ -184,14 +189,15 @@ class BagReader {
       if (entry == nullptr) return;
       const auto time_ns = static_cast<std::int64_t>(
           std::min<std::uint64_t>(message.log_time_ns, std::numeric_limits<std::int64_t>::max()));
-      expanded = topics_.take(*entry, time_ns, message.data, limit) && expanded;
+      const std::string_view wrong = topics_.take(*entry, time_ns, message.data, limit);
+      if (fault.empty()) fault = wrong;
     };
     const McapReport report = read_mcap(source, handlers, limits);
     report_.truncated = report_.truncated || report.truncated;
-    report_.damaged = report_.damaged || report.damaged || !expanded || !known;
+    report_.damaged = report_.damaged || report.damaged || !fault.empty() || !known;
     for (const Remark& warning : report.warnings) warn(part.name + ": " + warning.sentence);
     if (!known) warn(part.name + ": more topics than this reader takes");
-    if (!expanded) warn(part.name + ": a compressed message that does not expand");
+    if (!fault.empty()) warn(part.name + ": " + std::string(fault));
   }
 
   void read_packed(const Part& part) {

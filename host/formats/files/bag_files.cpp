@@ -13,6 +13,7 @@
 #include "host/formats/files/bag.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/mcap_records.hpp"
+#include "host/formats/files/ros1_bag_reader.hpp"
 #include "host/formats/files/yaml_scalars.hpp"
 
 namespace astro::bag {
@@ -87,6 +88,7 @@ BagFileKind bag_file_kind(const fs::path& path) {
   const std::string_view text(start.data(), static_cast<std::size_t>(file.gcount()));
   if (text == kDatabase) return BagFileKind::database;
   if (text.starts_with(as_text(bag::mcap::kMagic))) return BagFileKind::mcap;
+  if (text.starts_with(kRos1BagMark)) return BagFileKind::ros1;
   return begins_like_zstd(as_bytes(text)) ? BagFileKind::zstd : BagFileKind::none;
 }
 

@@ -8,10 +8,15 @@
 
 namespace astro::bag {
 
-enum class BagFileKind : std::uint8_t { none, database, mcap, zstd };
+enum class BagFileKind : std::uint8_t { none, database, mcap, ros1, zstd };
 
 /// What a file is by its first bytes; `none` also if it cannot be read.
 BagFileKind bag_file_kind(const std::filesystem::path& path);
+
+/// Whether it is a bag of ROS 1 that is not packed.
+inline bool is_ros1_bag(const std::filesystem::path& path) {
+  return bag_file_kind(path) == BagFileKind::ros1;
+}
 
 struct BagFiles {
   std::vector<std::filesystem::path> files;

@@ -1,11 +1,13 @@
 #include "host/formats/files/compression.hpp"
 
+#include <bzlib.h>
 #include <lz4frame.h>
 #include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -47,6 +49,22 @@ std::optional<Bytes> expand_lz4(ByteView bytes, std::uint64_t size) {
   return out;
 }
 
+std::optional<Bytes> expand_bz2(ByteView bytes, std::uint64_t size) {
+  constexpr std::string_view kMagic = "BZh";
+  if (!as_text(bytes).starts_with(kMagic) || bytes.size() > std::numeric_limits<unsigned>::max() ||
+      size > std::numeric_limits<unsigned>::max())
+    return std::nullopt;
+  Bytes out(static_cast<std::size_t>(size));
+  auto written = static_cast<unsigned>(size);
+  // The library reads from a pointer that is not const, but writes nothing there.
+  char* const from =
+      const_cast<char*>(as_text(bytes).data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  const int result = BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(out.data()), &written, from,
+                                                static_cast<unsigned>(bytes.size()), 0, 0);
+  if (result != BZ_OK || written != size) return std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 Bytes compress_zstd(ByteView bytes) {
@@ -62,6 +80,7 @@ Bytes compress_zstd(ByteView bytes) {
 std::optional<Bytes> expand(std::string_view compression, ByteView bytes, std::uint64_t size) {
   if (compression == "zstd") return expand_zstd(bytes, size);
   if (compression == "lz4") return expand_lz4(bytes, size);
+  if (compression == "bz2") return expand_bz2(bytes, size);
   if (!compression.empty() || bytes.size() != size) return std::nullopt;
   return Bytes(bytes.begin(), bytes.end());
 }

@@ -6,16 +6,16 @@
 
 #include "host/base/byte_source.hpp"
 
-/// The compressions of MCAP chunks, and the checksum of MCAP.
+/// The compressions of chunks in bags, and the checksum of MCAP.
 namespace astro::bag {
 
 /// One zstd frame at level 3, the library's own choice.
 Bytes compress_zstd(ByteView bytes);
 
-/// Expands a chunk to exactly `size` bytes; `compression` is "" (stored), "lz4" (frame format) or "zstd".
-/// Nothing for any other name, if the bytes are damaged, or if they do not expand to `size`. Allocates `size`
-/// bytes only if the compressed bytes can expand to that much: lz4 gains at most a factor 255, zstd 128 KiB
-/// per block of 4 bytes.
+/// Expands a chunk to exactly `size` bytes; `compression` is "" (stored), "lz4" (frame format), "zstd" or, in
+/// ROS 1, "bz2". Nothing for any other name, if the bytes are damaged, or if they do not expand to `size`.
+/// Allocates `size` bytes only if the compressed bytes can expand to that much: lz4 gains at most a factor
+/// 255, zstd 128 KiB per block of 4 bytes, and bz2 46 MB per block, so that the caller's own limit counts.
 std::optional<Bytes> expand(std::string_view compression, ByteView bytes, std::uint64_t size);
 
 bool begins_like_zstd(ByteView bytes);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <unordered_map>
 
@@ -68,6 +69,7 @@ class Db3Reader {
 
   void read() {
     require_tables();
+    read_definitions();
     read_topics();
     read_messages();
   }
@@ -131,6 +133,28 @@ class Db3Reader {
     }
   }
 
+  /// Bags have definitions since version 4 of the schema.
+  void read_definitions() {
+    constexpr std::size_t kMostBytes = std::size_t{2} << 20;
+    Statement found(
+        database_.get(),
+        "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'message_definitions' AND rootpage "
+        "> 0 AND NOT EXISTS (SELECT 1 FROM pragma_table_xinfo('message_definitions') WHERE hidden <> 0)");
+    if (found.step() != SQLITE_ROW) return;
+    Statement rows(
+        database_.get(),
+        "SELECT rowid, topic_type, encoding, encoded_message_definition FROM message_definitions NOT "
+        "INDEXED ORDER BY rowid");
+    std::size_t bytes = 0;
+    last_row_.reset();
+    while (rows.step() == SQLITE_ROW && rises(rows)) {
+      if (as_text(rows.bytes(2)) != "ros2msg") continue;
+      bytes += rows.bytes(1).size() + rows.bytes(3).size();
+      if (bytes > kMostBytes) return;
+      definitions_.emplace(as_text(rows.bytes(1)), as_text(rows.bytes(3)));
+    }
+  }
+
   /// Whether rows still come in rising order; a damaged file can have pages that lead round in a circle.
   bool rises(const Statement& row) {
     const bool rising = !last_row_ || row.integer(0) > *last_row_;
@@ -147,7 +171,11 @@ class Db3Reader {
     last_row_.reset();
     int step = 0;
     while ((step = rows.step()) == SQLITE_ROW && rises(rows)) {
-      Entry* entry = topics_.entry(as_text(rows.bytes(2)), as_text(rows.bytes(3)), as_text(rows.bytes(4)));
+      const auto defined = definitions_.find(as_text(rows.bytes(3)));
+      const Definition definition =
+          defined == definitions_.end() ? Definition() : Definition{"ros2msg", defined->second};
+      Entry* entry =
+          topics_.entry(as_text(rows.bytes(2)), as_text(rows.bytes(3)), as_text(rows.bytes(4)), definition);
       if (entry == nullptr) return damage("more topics than this reader takes");
       by_id_.try_emplace(rows.integer(1), entry);
     }
@@ -180,8 +208,8 @@ class Db3Reader {
     const bool has_data = row.is_blob(3);
     if (!row.is_integer(2) || has_data != entry->second->wanted)
       return damage("a message without time or data");
-    if (!topics_.take(*entry->second, row.integer(2), row.bytes(3), expansion_))
-      damage("a compressed message that does not expand");
+    const std::string_view fault = topics_.take(*entry->second, row.integer(2), row.bytes(3), expansion_);
+    if (!fault.empty()) damage(std::string(fault));
   }
 
   const Db3File& file_;
@@ -193,6 +221,7 @@ class Db3Reader {
   Effort effort_;
   bool cut_ = false;
   std::optional<std::int64_t> last_row_;
+  std::map<std::string, std::string, std::less<>> definitions_;  // by type
   std::unordered_map<std::int64_t, Entry*> by_id_;
 };
 
