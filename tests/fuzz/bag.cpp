@@ -1,15 +1,18 @@
-// Bags of either storage, packed or not, and the wheels and poses in them.
+// Bags of all storages, packed or not, and the wheels and poses in them.
 #include "host/formats/files/bag.hpp"
 #include "host/base/error.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/mcap_writer.hpp"
 #include "host/formats/files/sqlite.hpp"
+#include "host/formats/messages/geometry.hpp"
 #include "host/formats/messages/joint_state.hpp"
+#include "host/formats/messages/sensors.hpp"
 #include "host/formats/messages/stamped_pose.hpp"
-#include "host/import/wheels/joint_wheels.hpp"
+#include "host/import/wheels/bag_wheels.hpp"
 #include "host/import/wheels/pose_topics.hpp"
 #include "tests/fuzz/input_file.hpp"
 #include "tests/fuzz/target.hpp"
+#include "tests/support/ros1/ros1_bag.hpp"
 
 namespace astro::fuzz {
 namespace {
@@ -68,6 +71,23 @@ Bytes database_bag() {
   return file;
 }
 
+Bytes ros1_bag(const char* compression) {
+  support::Ros1Bag bag(compression);
+  bag.topic(0, "/joint_states", "sensor_msgs/JointState", support::ros1::kJointState);
+  bag.topic(1, "/tf", "tf/tfMessage", support::ros1::kTf);
+  bag.topic(2, "/left_ticks", "std_msgs/Int32", "int32 data");
+  bag.topic(3, "/right_ticks", "std_msgs/Int32", "int32 data");
+  for (int i = 0; i < 3; ++i) {
+    bag.message(0, i,
+                support::Ros1Message::encode(ros2::msg::JointState{{}, {"left", "right"}, {1, 2}, {}, {}}));
+    bag.message(1, i, support::Ros1Message::encode(ros2::msg::TFMessage{{{{}, "base", {}}}}));
+    bag.message(2, i, Bytes(4));
+    bag.message(3, i, Bytes(4));
+    if (i == 1) bag.end_chunk();
+  }
+  return bag.closed();
+}
+
 }  // namespace
 
 void take(ByteView input) {
@@ -84,12 +104,24 @@ void take(ByteView input) {
     require(report.damaged || passed == counted, "only damaged messages are left out");
   });
   try_to([&] { importing::wheels_in_bag(path); });
+  importing::BagWheelSelection selection;
+  selection.measure = importing::travel_measure("rpm");
+  selection.topic = "/left_ticks,/right_ticks";
+  try_to([&] { importing::wheels_in_bag(path, selection); });
+  selection = {"/tf", {}, {}, {}, calibration::WheelFactors{1, 1, 0.3}};
+  try_to([&] { importing::wheels_in_bag(path, selection); });
   try_to([&] { importing::poses_in_bag(path); });
   try_to([&] { importing::poses_in_bag(path, {"/tf", "", ""}); });
 }
 
 std::vector<Bytes> seeds() {
-  return {mcap_bag(), database_bag(), compress_zstd(mcap_bag()), compress_zstd(database_bag())};
+  return {mcap_bag(),
+          database_bag(),
+          compress_zstd(mcap_bag()),
+          compress_zstd(database_bag()),
+          ros1_bag("none"),
+          ros1_bag("bz2"),
+          ros1_bag("lz4")};
 }
 
 }  // namespace astro::fuzz

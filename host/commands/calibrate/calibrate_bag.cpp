@@ -17,8 +17,8 @@ void add_calibrate_bag(console::Command calibrate) {
   };
   const auto options = std::make_shared<Options>();
   const console::Command command =
-      calibrate.add_subcommand("bag", "from ROS 2 bags that hold joint states and a tracker's poses");
-  command.add_option("bags", options->import.wheels, "a bag for each drive: .mcap, .db3 or a folder")
+      calibrate.add_subcommand("bag", "from bags of ROS 1 or 2 that hold the wheels and a tracker's poses");
+  command.add_option("bags", options->import.wheels, "a bag for each drive: .bag, .mcap, .db3 or a folder")
       .required();
   add_bag_choices(command, options->import);
   add_tracker_choices(command, options->import);
@@ -32,6 +32,9 @@ void add_calibrate_bag(console::Command calibrate) {
       "  astrolabe calibrate bag drive1 drive2 --out calib.toml\n"
       "  astrolabe calibrate bag drive1 drive2 --robot diff_drive.yaml --out calib.toml\n"
       "  astrolabe calibrate bag drive.mcap --wheels-topic /joint_states --truth-topic /tracker/pose \\\n"
+      "    --wheel-diameter 0.066 --wheelbase 0.16\n"
+      "  astrolabe calibrate bag drive.bag --wheels-topic /left_ticks,/right_ticks --counts-per-turn 1440 "
+      "\\\n"
       "    --wheel-diameter 0.066 --wheelbase 0.16\n"
       "  astrolabe inspect drive.mcap");
   command.callback([options] {

@@ -58,6 +58,29 @@ console::Check is_axis() {
   };
 }
 
+/// Each side's wheels, of which a robot may have several: "front_left+rear_left,front_right+rear_right".
+std::vector<importing::JointPair> joints_in(const std::vector<std::string>& sides) {
+  if (sides.empty()) return {};
+  const auto wheels_in = [](std::string_view side) {
+    std::vector<std::string> wheels;
+    for (std::size_t end = 0; end != std::string_view::npos;
+         side.remove_prefix(std::min(end + 1, side.size())))
+      wheels.emplace_back(side.substr(0, end = side.find('+')));
+    return wheels;
+  };
+  constexpr const char* kForm =
+      "--joints takes two names, LEFT,RIGHT, or as many for each side: LEFT+LEFT,RIGHT+RIGHT";
+  if (sides.size() != 2) throw console::WrongUsage(kForm);
+  const std::vector<std::string> left = wheels_in(sides[0]), right = wheels_in(sides[1]);
+  if (left.size() != right.size()) throw console::WrongUsage(kForm);
+  std::vector<importing::JointPair> pairs;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (left[i].empty() || right[i].empty()) throw console::WrongUsage(kForm);
+    pairs.push_back({left[i], right[i]});
+  }
+  return pairs;
+}
+
 RobotGeometry geometry_of(const ImportOptions& options) {
   RobotGeometry geometry;
   if (!options.robot_file.empty())
@@ -66,19 +89,22 @@ RobotGeometry geometry_of(const ImportOptions& options) {
   given.wheel_diameter_m = options.wheel_diameter_m;
   given.counts_per_turn = options.counts_per_turn;
   given.wheelbase_m = options.wheelbase_m;
-  if (!options.joints.empty()) given.joints = {options.joints.at(0), options.joints.at(1)};
+  if (const auto joints = joints_in(options.joints); !joints.empty()) given.joints = joints.front();
   return geometry.overridden_by(given);
 }
 
 ImportChoices choices_of(const ImportOptions& options) {
-  if (!options.joints.empty() && options.joints.size() != 2)
-    throw console::WrongUsage("--joints takes two names, LEFT,RIGHT");
   if (!options.frames.empty() && options.frames.size() != 2)
     throw console::WrongUsage("--truth-frames takes two names, PARENT,CHILD");
   ImportChoices choices;
   choices.geometry = geometry_of(options);
   choices.wheels.table = options.table;
-  choices.wheels.joints = {options.wheels_topic, choices.geometry.joints};
+  choices.wheels.bag.topic = options.wheels_topic;
+  choices.wheels.bag.joints = choices.geometry.joints;
+  if (const auto joints = joints_in(options.joints); !joints.empty())
+    choices.wheels.bag.further.assign(joints.begin() + 1, joints.end());
+  choices.wheels.bag.measure = importing::travel_measure(options.wheels_unit);
+  if (choices.geometry.wheelbase_m) choices.wheels.bag.odometry = choices.geometry.factors();
   choices.wheels.exchanged = options.swap_wheels;
   choices.wheels.reversed = options.reverse_wheels;
   choices.drives_backward = options.drives_backward;
@@ -116,7 +142,8 @@ constexpr Advice kImportAdvice[] = {
      "exchanged, or "
      "--up with the axis of the tracker that points up"},
     {importing::ImportProblem::drives_backward,
-     ": if it drove forward, give --swap-wheels and --reverse-wheels, or the other of the two if one is given; if it did "
+     ": if it drove forward, give --swap-wheels and --reverse-wheels, or the other of the two if one is "
+     "given; if it did "
      "drive backward, --drives-backward"},
     {importing::ImportProblem::per_interval_likely, ": give --per-interval"},
     {importing::ImportProblem::turns_against_stated_up,
@@ -133,8 +160,15 @@ constexpr Advice kImportAdvice[] = {
     {truth::TrackProblem::no_header,
      "; or say what they are with --truth-columns, such as time_s,x_m,y_m,theta_rad"},
     {truth::TrackProblem::time_unit_unknown, ": say it with --truth-columns"},
-    {importing::WheelProblem::joints_unclear, ": name the wheels with --joints LEFT,RIGHT"},
+    {importing::WheelProblem::joints_unclear,
+     ": name the wheels with --joints LEFT,RIGHT (four wheels: LEFT+LEFT,RIGHT+RIGHT)"},
     {importing::WheelProblem::topic_unclear, ": name one with --wheels-topic"},
+    {importing::WheelProblem::fields_unclear,
+     ": name both with --wheels-topic TOPIC:LEFT,RIGHT, or with TOPIC,TOPIC if each wheel has its own"},
+    {importing::WheelProblem::unit_unclear, ": name one of them with --wheels-unit"},
+    {importing::WheelProblem::odometry_needs_sizes, ": give --wheelbase, or a file with --robot"},
+    {importing::ImportProblem::odometry_is_truth,
+     ": name the tracker's poses with --truth-topic, or other wheels with --wheels-topic"},
     {importing::WheelProblem::poses_unclear,
      ": name one with --truth-topic, and its frames with --truth-frames PARENT,CHILD"},
     {importing::WheelProblem::controller_unclear, ": name one with --controller"},
@@ -146,14 +180,16 @@ constexpr Advice kImportAdvice[] = {
 
 void add_drive_files(console::Command command, ImportOptions& options) {
   command
-      .add_option("--wheels", options.wheels,
-                  "a drive's wheels: CSV, bag (JointState) or our own\nrecording (repeatable, with --truth)")
+      .add_option(
+          "--wheels", options.wheels,
+          "a drive's wheels: CSV, bag of ROS 1 or 2, or our own\nrecording (repeatable, with --truth)")
       .type_name("FILE")
       .one_each_time();
   command
       .add_option("--truth", options.truth,
-                  "its ground truth: Motive, Vicon, TUM or plain CSV\n(also .gz), a bag, or film:FILE, a "
-                  "phone film of\nprinted tags, one for all drives or one for each")
+                  "its ground truth: Motive, Vicon, Qualisys, TUM or a\ntable (also .gz), a bag, or "
+                  "film:FILE, a phone "
+                  "film\nof printed tags, one for all drives or one for each")
       .type_name("FILE")
       .one_each_time();
 }
@@ -183,9 +219,21 @@ void add_table_choices(console::Command command, ImportOptions& options) {
 }
 
 void add_bag_choices(console::Command command, ImportOptions& options) {
-  command.add_option("--wheels-topic", options.wheels_topic, "bags: the topic of the wheels (JointState)")
+  command
+      .add_option("--wheels-topic", options.wheels_topic,
+                  "bags: the wheels: TOPIC (joints, odometry, or fields\nwith telling names), "
+                  "TOPIC:LEFT,RIGHT with both\n"
+                  "fields, or TOPIC,TOPIC with a topic for each wheel")
       .type_name("TOPIC");
-  command.add_option("--joints", options.joints, "bags: the joints of the wheels")
+  std::vector<std::string> units;
+  for (const importing::TravelMeasure& measure : importing::travel_measures())
+    units.emplace_back(measure.name);
+  command.add_option("--wheels-unit", options.wheels_unit, "bags: the unit of such fields and topics")
+      .one_of(units);
+  command
+      .add_option(
+          "--joints", options.joints,
+          "bags: the joints of the wheels; several on a side as\nLEFT+LEFT,RIGHT+RIGHT, whose mean counts")
       .type_name("LEFT,RIGHT")
       .delimiter(',');
   command.add_option("--truth-topic", options.truth_topic, "bags: the topic of the tracker's poses")

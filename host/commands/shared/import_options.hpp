@@ -15,7 +15,8 @@ namespace astro::commands {
 struct ImportOptions {
   std::vector<std::filesystem::path> wheels, truth;  // of the same length
   importing::WheelTable table;
-  std::string wheels_topic, truth_topic, truth_columns, body, up, unit, mirrored = "auto", controller;
+  std::string wheels_topic, wheels_unit, truth_topic, truth_columns, body, up, unit, mirrored = "auto",
+                                                                                     controller;
   std::vector<std::string> joints, frames;
   bool swap_wheels = false, reverse_wheels = false, drives_backward = false, session_per_folder = false;
   std::filesystem::path robot_file;

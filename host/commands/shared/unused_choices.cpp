@@ -50,7 +50,7 @@ struct Choice {
 
 std::vector<Choice> choices_in(const ImportOptions& options) {
   constexpr const char *kNoTable = "none of the files of wheels is a table",
-                       *kNoBagOfWheels = "none of the files of wheels is a bag with messages of joints",
+                       *kNoBagOfWheels = "none of the files of wheels is a bag of another program",
                        *kNoBagOfPoses = "none of the files of ground truth is a bag";
   const auto tables = [](const ImportOptions& all) { return any_text(all.wheels); };
   const auto bags_of_wheels = [](const ImportOptions& all) { return any_bag(all.wheels); };
@@ -63,6 +63,7 @@ std::vector<Choice> choices_in(const ImportOptions& options) {
           {"--counter-range", options.table.counter_range.has_value(), tables, kNoTable},
           {"--truth-columns", !options.truth_columns.empty(), takes, "no file of ground truth is a table"},
           {"--wheels-topic", !options.wheels_topic.empty(), bags_of_wheels, kNoBagOfWheels},
+          {"--wheels-unit", !options.wheels_unit.empty(), bags_of_wheels, kNoBagOfWheels},
           {"--joints", !options.joints.empty(), any_with_joints, kNoBagOfWheels},
           {"--truth-topic", !options.truth_topic.empty(), bags_of_poses, kNoBagOfPoses},
           {"--truth-frames", !options.frames.empty(), bags_of_poses, kNoBagOfPoses},

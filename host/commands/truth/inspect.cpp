@@ -76,8 +76,40 @@ std::string tracker_text(const truth::Inspection& tracker) {
   return text;
 }
 
+std::string source_text(const importing::WheelSource& source) {
+  switch (source.kind) {
+    case importing::WheelSource::Kind::joints:
+      return source.name() + " (joints)";
+    case importing::WheelSource::Kind::odometry:
+      return source.name() + " (the robot's odometry, turned back with --wheelbase)";
+    case importing::WheelSource::Kind::fields:
+      break;
+  }
+  return fmt::format("{} ({})", source.name(),
+                     source.measure ? source.measure->name : "unit not known, name it with --wheels-unit");
+}
+
+/// What 'calibrate' takes from a bag, and what else it could take.
+std::string sources_text(const BagInspection& bag) {
+  if (bag.run) return "";
+  if (bag.sources.empty()) return '\n' + wrapped("There is nothing of the wheels in it that is recognised.");
+  std::string others;
+  bool any_joints = false;
+  for (const importing::WheelSource& source : bag.sources) {
+    if (bag.source && source.name() == bag.source->name()) continue;
+    any_joints = any_joints || source.kind == importing::WheelSource::Kind::joints;
+    others += (others.empty() ? "" : "; ") + source_text(source);
+  }
+  std::string text = bag.source ? "'calibrate' takes the wheels from " + source_text(*bag.source) + '.'
+                                : "Which of it are the wheels is not clear.";
+  if (others.empty()) return '\n' + wrapped(text);
+  text += bag.source ? " Others, with --wheels-topic" : " Name them with --wheels-topic";
+  text += any_joints && !bag.wheels ? " and --joints: " : ": ";
+  return '\n' + wrapped(text + others + '.');
+}
+
 std::string bag_text(const BagInspection& bag) {
-  std::string text = fmt::format("ROS 2 bag of {} file{}.\n", bag.report.files.size(),
+  std::string text = fmt::format("ROS {} bag of {} file{}.\n", bag.ros1 ? 1 : 2, bag.report.files.size(),
                                  bag.report.files.size() == 1 ? "" : "s");
   if (bag.run)
     text = fmt::format("Recording of astrolabe: {}{}.\n", bag.run->kind,
@@ -104,6 +136,7 @@ std::string bag_text(const BagInspection& bag) {
                 (bag.wheels ? "; wheels: " + bag.wheels->left + " (left), " + bag.wheels->right + " (right)."
                             : "; which are the wheels, the names do not tell."));
   }
+  text += sources_text(bag);
   for (const std::string& warning : bag.report.warnings) text += wrapped(warning);
   return text;
 }
@@ -197,6 +230,11 @@ nlohmann::json bag_json(const BagInspection& bag) {
                      {"frame", stream.frame},
                      {"child_frame", stream.child_frame},
                      {"poses", stream.poses}});
+  nlohmann::json sources = nlohmann::json::array();
+  for (const importing::WheelSource& source : bag.sources)
+    sources.push_back({{"name", source.name()},
+                       {"unit", source.measure ? nlohmann::json(source.measure->name) : nlohmann::json()},
+                       {"taken", bag.source && bag.source->name() == source.name()}});
   nlohmann::json wheels;
   if (bag.wheels) wheels = {{"left", bag.wheels->left}, {"right", bag.wheels->right}};
   return {{"kind", "bag"},
@@ -204,6 +242,7 @@ nlohmann::json bag_json(const BagInspection& bag) {
           {"poses", poses},
           {"joints", bag.joints},
           {"wheels", wheels},
+          {"wheel_sources", sources},
           {"truncated", bag.report.truncated},
           {"damaged", bag.report.damaged},
           {"warnings", bag.report.warnings}};
@@ -262,7 +301,7 @@ void add_inspect(console::Command app) {
   };
   const auto options = std::make_shared<Options>();
   const console::Command command =
-      app.add_subcommand("inspect", "say what is in a file of a tracker, a robot or a ROS 2 bag");
+      app.add_subcommand("inspect", "say what is in a file of a tracker, a robot or a ROS bag");
   command.add_option("file", options->file, "the file, or the folder of a bag").required();
   add_table_choices(command, options->choices);
   command
@@ -272,7 +311,7 @@ void add_inspect(console::Command app) {
   add_json_flag(command, options->json);
   command.footer(
       "Recognised by content: Motive CSV, Vicon CSV, TUM, EuRoC, CSV with names and units (also packed with\n"
-      "gzip); bags (.mcap, .db3, folders); tables of wheels. By the end of its name: sizes of a robot "
+      "gzip); bags (.bag, .mcap, .db3, folders); tables of wheels. By the end of its name: sizes of a robot "
       "(.toml, .yaml).\n"
       "Examples:\n"
       "  astrolabe inspect take.csv\n"

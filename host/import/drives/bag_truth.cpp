@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/formats/files/bag_files.hpp"
+
 namespace astro::importing {
 namespace {
 
@@ -39,7 +41,8 @@ truth::BodyTrack track_in_bag(const std::filesystem::path& path, const PoseSelec
   truth::BodyTrack track;
   track.name = topic.stream.child_frame.empty() ? topic.stream.topic : topic.stream.child_frame;
   track.id = topic.stream.name();
-  track.facts.format = "ROS 2 bag, " + topic.stream.name() + " of " + topic.stream.type;
+  track.facts.format = (bag::is_ros1_bag(path) ? "ROS 1 bag, " : "ROS 2 bag, ") + topic.stream.name() +
+                       " of " + topic.stream.type;
   track.facts.length_unit = "m";  // REP 103
   const bool rotations = has_rotations(topic.poses);
   track.facts.rotation_kind = rotations ? truth::RotationKind::quaternion : truth::RotationKind::none;

@@ -70,9 +70,21 @@ class Pass {
   std::set<std::string> joints_;
 };
 
+/// As wheels_in_bag chooses.
+std::optional<WheelSource> source_taken(const BagInspection& bag) {
+  const auto joints = std::ranges::count(bag.sources, WheelSource::Kind::joints, &WheelSource::kind);
+  if (joints > 1) return std::nullopt;
+  if (joints == 1 && bag.wheels) return bag.sources.front();
+  const WheelSource* found = recognised_source(bag.sources);
+  return found == nullptr ? std::nullopt : std::optional(*found);
+}
+
 BagInspection inspect_bag(const fs::path& path) {
   BagInspection bag = Pass().over(path);
   bag.poses = pose_streams(path);
+  bag.sources = wheel_sources(bag.report.topics);
+  bag.source = source_taken(bag);
+  bag.ros1 = bag::is_ros1_bag(path);
   const bool own = std::any_of(bag.topics.begin(), bag.topics.end(), [](const TopicInspection& one) {
     return one.topic.type == recording::wheel_counts_type().name;
   });

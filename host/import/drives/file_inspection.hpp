@@ -11,6 +11,7 @@
 #include "host/import/wheels/joint_names.hpp"
 #include "host/import/wheels/pose_topics.hpp"
 #include "host/import/wheels/wheel_csv.hpp"
+#include "host/import/wheels/wheel_sources.hpp"
 #include "host/recording/run.hpp"
 #include "host/truth/floor/inspection.hpp"
 
@@ -26,9 +27,12 @@ struct TopicInspection {
 struct BagInspection {
   bag::BagReport report;
   std::vector<TopicInspection> topics;
-  std::vector<PoseStream> poses;          // ground truth, or a robot's own odometry
-  std::vector<std::string> joints;        // of all messages of joints, at most 1000
-  std::optional<JointPair> wheels;        // which of them are the wheels, if their names show it
+  std::vector<PoseStream> poses;      // ground truth, or a robot's own odometry
+  std::vector<std::string> joints;    // of all messages of joints, at most 1000
+  std::optional<JointPair> wheels;    // which of them are the wheels, if their names show it
+  std::vector<WheelSource> sources;   // of wheels
+  std::optional<WheelSource> source;  // the one that is taken if none is named; none if that is unclear
+  bool ros1 = false;
   std::optional<recording::RunInfo> run;  // the file is a recording of this project
 };
 

@@ -246,12 +246,22 @@ PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const Import
   return drive;
 }
 
+/// Wheels that were worked out from a robot's odometry fit it perfectly.
+void refuse_own_odometry(const DriveFiles& files, const std::string& topic, const ImportedTruth& truth) {
+  const std::string& id = truth.track.id;
+  if (topic.empty() || files.wheels != files.truth || (id != topic && !id.starts_with(topic + ' '))) return;
+  throw Error(files.wheels.string() +
+                  ": both the wheels and the ground truth would be the robot's own odometry " + topic,
+              ImportProblem::odometry_is_truth, {topic});
+}
+
 /// Errors of pairing name both files.
 PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices,
                    Geometry& geometry) {
   ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
   const RobotGeometry& sizes = geometry.of(files.wheels, wheels);
   const ImportedTruth truth = read_truth(files.truth, choices.truth);
+  refuse_own_odometry(files, wheels.track.odometry, truth);
   try {
     return pair_up(name, std::move(wheels), truth, sizes, choices.floor);
   } catch (const Error& error) {

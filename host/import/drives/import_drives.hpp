@@ -49,7 +49,8 @@ struct ImportedDrives {
 ///   backward in all drives; if wheels and truth turn in opposite directions, if the body is below the origin along
 ///   an axis that was not given, if a wheel turns 100 times between two samples, or if it leaps faster than
 ///   20 m/s;
-///   naming the bag, if a description in it has the wheels but not their sizes;
+///   naming the bag, if a description in it has the wheels but not their sizes, or if the truth is the
+///   odometry from which the wheels were worked out;
 /// and what read_wheels, read_truth, complete_geometry and truth::place_on_floor throw.
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices);
 

@@ -20,6 +20,7 @@ namespace astro::importing {
 ///   turns_against_wheels     the drive, and by how many metres the body is above the tracker's origin if it
 ///                            clearly is
 ///   turns_against_stated_up  the drive
+///   odometry_is_truth        the topic
 enum class ImportProblem {
   size_not_above_zero,
   sizes_not_described,
@@ -40,7 +41,8 @@ enum class ImportProblem {
   wheels_equal,
   per_interval_likely,
   encoders_reversed,
-  drives_backward
+  drives_backward,
+  odometry_is_truth
 };
 
 /// The wheels of any robot as its own program describes them: nominal sizes, and the factors by which its

@@ -38,11 +38,11 @@ ImportedWheels read(const fs::path& path, const WheelSelection& selection) {
   if (!bag::is_bag(path)) {
     return {read_wheel_table(path, selection.table), {}};
   }
-  if (selection.joints.topic.empty() && is_own_recording(path)) {
+  if (selection.bag.topic.empty() && is_own_recording(path)) {
     const recording::Run run = recording::read_run(path);
     return {track_of(run), run.info};
   }
-  return {wheels_in_bag(path, selection.joints), {}};
+  return {wheels_in_bag(path, selection.bag), {}};
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "host/import/wheels/joint_wheels.hpp"
+#include "host/import/wheels/bag_wheels.hpp"
 #include "host/import/wheels/wheel_csv.hpp"
 #include "host/import/wheels/wheel_track.hpp"
 #include "host/recording/run.hpp"
@@ -14,7 +14,7 @@ namespace astro::importing {
 /// What a person states about files of wheels; all else is recognised.
 struct WheelSelection {
   WheelTable table;        // of tables
-  JointSelection joints;   // of bags
+  BagWheelSelection bag;   // of bags
   bool exchanged = false;  // the file has left and right exchanged
   bool reversed = false;   // both encoders count backward when the robot drives forward
 };

@@ -5,16 +5,10 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <string_view>
+#include <tuple>
 #include <utility>
-#include <vector>
-
-#include "common/base/side.hpp"
 
 namespace astro::importing {
-namespace {
-
-/// The words of a name in lower case: "leftWheel_joint1" has left, wheel, joint and 1.
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words;
   char before = ' ';
@@ -32,6 +26,8 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
+namespace {
+
 std::optional<Side> side_of(const std::string& word) {
   static const std::map<std::string, Side> sides = {
       {"left", Side::left},   {"l", Side::left},  {"lhs", Side::left},  {"port", Side::left},
@@ -40,30 +36,31 @@ std::optional<Side> side_of(const std::string& word) {
   return found == sides.end() ? std::nullopt : std::optional(found->second);
 }
 
-bool speaks_of_wheels(const std::string& words) {
+/// "leftwheel" and "lwheel" are one word each. Nothing if the word does not begin with a side.
+std::optional<std::pair<Side, std::string>> side_and_rest(const std::string& word) {
+  for (const auto& [prefix, side] : {std::pair{"left", Side::left}, std::pair{"right", Side::right}})
+    if (word.starts_with(prefix)) return std::pair{side, word.substr(std::string_view(prefix).size())};
+  for (const char* part : {"wheel", "whl", "enc", "motor", "tick"})
+    for (const auto& [letter, side] : {std::pair{'l', Side::left}, std::pair{'r', Side::right}})
+      if (word.starts_with(letter + std::string(part))) return std::pair{side, word.substr(1)};
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool speaks_of_wheels(std::string_view words) {
   for (const char* word : {"wheel", "tyre", "tire", "drive", "motor"})
-    if (words.find(word) != std::string::npos) return true;
+    if (words.find(word) != std::string_view::npos) return true;
   return false;
 }
 
-/// The name with a placeholder for the word of its side. `side` is empty if there is no such word, or more
-/// than one.
-struct Sided {
-  std::optional<Side> side;
-  std::string stem;
-};
-
-Sided sided(std::string_view name) {
-  Sided out;
+SidedName sided_name(std::string_view name) {
+  SidedName out;
   for (const std::string& word : words_of(name)) {
     std::optional<Side> side = side_of(word);
     std::string rest;
-    // "leftwheel" is one word.
-    for (const auto& [prefix, of_prefix] : {std::pair{"left", Side::left}, std::pair{"right", Side::right}}) {
-      if (side || !word.starts_with(prefix)) continue;
-      side = of_prefix;
-      rest = word.substr(std::string_view(prefix).size());
-    }
+    if (!side)
+      if (auto parts = side_and_rest(word)) std::tie(side, rest) = std::move(*parts);
     if (side && out.side) return {};
     if (side) out.side = side;
     out.stem += (side ? "<>" + rest : word) + " ";
@@ -71,12 +68,10 @@ Sided sided(std::string_view name) {
   return out;
 }
 
-}  // namespace
-
 std::optional<JointPair> recognise_wheels(std::span<const std::string> names) {
   std::map<std::string, std::pair<std::set<std::string>, std::set<std::string>>> by_stem;
   for (const std::string& name : names) {
-    const Sided at = sided(name);
+    const SidedName at = sided_name(name);
     if (at.side == Side::left) by_stem[at.stem].first.insert(name);
     if (at.side == Side::right) by_stem[at.stem].second.insert(name);
   }

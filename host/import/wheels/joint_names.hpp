@@ -3,6 +3,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/side.hpp"
 
 namespace astro::importing {
 
@@ -11,6 +15,21 @@ struct JointPair {
 
   bool operator==(const JointPair&) const = default;
 };
+
+/// The words of a name in lower case: "leftWheel_joint1" has left, wheel, joint and 1.
+std::vector<std::string> words_of(std::string_view name);
+
+/// A name, and its words with a placeholder for that of its side: "<> wheel " for "left_wheel", "<>wheel "
+/// for "lwheel". `side` is empty if there is no such word, or more than one.
+struct SidedName {
+  std::optional<Side> side;
+  std::string stem;
+};
+
+SidedName sided_name(std::string_view name);
+
+/// Whether one of the words is about wheels or what drives them.
+bool speaks_of_wheels(std::string_view words);
 
 /// Finds the joints of the driven wheels: the one pair whose names differ only in the word for the side (left
 /// and right, l and r, port and starboard). If there are several pairs, it is the one whose names contain a

@@ -1,15 +1,19 @@
 #include "host/import/wheels/joint_wheels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "host/formats/files/bag.hpp"
 #include "host/formats/messages/joint_state.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/sample_limit.hpp"
-#include "host/import/wheels/speeds.hpp"
+#include "host/import/wheels/speed_integral.hpp"
 #include "host/import/wheels/stamp_count.hpp"
 #include "host/import/wheels/time_order.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
@@ -33,15 +37,28 @@ void for_each_state(const std::filesystem::path& path, const std::string& topic,
   report = bag::read_bag(path, handlers);
 }
 
+/// How far a wheel travels in all, forwards and backwards.
+double way_of(const std::vector<WheelSample>& samples, double WheelSample::*wheel) {
+  double way = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) way += std::abs(samples[i].*wheel - samples[i - 1].*wheel);
+  return way;
+}
+
 class JointWheels {
  public:
   JointWheels(const std::filesystem::path& path, const JointSelection& selection)
-      : path_(path), topic_(selection.topic), joints_(selection.joints) {}
+      : path_(path), topic_(selection.topic) {
+    if (!selection.joints.left.empty()) pairs_.push_back(selection.joints);
+    pairs_.insert(pairs_.end(), selection.further.begin(), selection.further.end());
+  }
 
   WheelTrack read() {
     track_.unit = WheelUnit::radians;
-    choose_topic();
+    for (const bag::BagTopic& topic : bag::read_bag(path_).topics)
+      if (topic.name == topic_) require_possible(topic.messages, 24, "states of joints", path_);
     choose_joints();
+    positions_.resize(pairs_.size());
+    velocities_.resize(pairs_.size());
     bag::BagReport report;
     for_each_state(path_, topic_, report, [this](const ros2::JointState* state, std::int64_t log_time_ns) {
       if (state != nullptr) take(*state, log_time_ns);
@@ -52,24 +69,6 @@ class JointWheels {
 
  private:
   void remark(std::string fact) { track_.remarks.push_back({std::move(fact)}); }
-
-  void choose_topic() {
-    std::vector<std::string> topics;
-    std::uint64_t messages = 0;
-    for (const bag::BagTopic& topic : bag::read_bag(path_).topics) {
-      if (topic.type != ros2::joint_state_type().name || topic.messages == 0) continue;
-      topics.push_back(topic.name);
-      messages += topic.messages;
-    }
-    require_possible(messages, 24, "states of joints", path_);
-    if (topic_.empty() && topics.size() == 1) topic_ = topics.front();
-    if (std::ranges::find(topics, topic_) != topics.end()) return;
-    const std::string what = topics.empty()   ? " has no messages of joints (sensor_msgs/msg/JointState)"
-                             : topic_.empty() ? " has several topics of joints: "
-                                              : " has no topic " + topic_ + " of joints; it has ";
-    throw UnclearChoice(path_.string() + what + (topics.empty() ? "" : listed(topics)), topics,
-                        WheelProblem::topic_unclear);
-  }
 
   void choose_joints() {
     std::map<std::string, StampCount> found;
@@ -83,62 +82,112 @@ class JointWheels {
     });
     std::vector<std::string> names;
     for (const auto& [name, stamps] : found) names.push_back(name);
-    if (joints_.left.empty() && joints_.right.empty()) {
-      const auto recognised = recognise_wheels(names);
-      if (!recognised)
-        throw UnclearChoice(path_.string() + ": which joints of " + topic_ +
-                                " are the wheels cannot be told from their names: " + listed(names),
-                            names, WheelProblem::joints_unclear);
-      joints_ = *recognised;
-      track_.remarks.push_back({"the wheels are the joints " + joints_.left + " and " + joints_.right,
-                                ChoiceRemark::joints_recognised,
-                                {joints_.left, joints_.right}});
-    }
-    for (const std::string& joint : {joints_.left, joints_.right})
-      if (!found.contains(joint))
-        throw UnclearChoice(
-            path_.string() + ": " + topic_ + " has no joint '" + joint + "'; it has " + listed(names), names,
-            WheelProblem::joints_unclear);
-    if (joints_.left == joints_.right)
-      throw UnclearChoice(path_.string() + ": both wheels are the joint " + joints_.left, names,
-                          WheelProblem::joints_unclear);
-    track_.joints = joints_;
+    if (pairs_.empty()) recognise(names);
+    require_joints(names);
+    track_.joints = pairs_.front();
     // Only messages with the left wheel count: other drivers on the same topic may have no clock.
-    stamps_ = found.at(joints_.left);
+    stamps_ = found.at(track_.joints.left);
     track_.clock = stamps_.most_are_set() ? WheelClock::stamp : WheelClock::receipt;
   }
 
+  void recognise(const std::vector<std::string>& names) {
+    const auto recognised = recognise_wheels(names);
+    if (!recognised)
+      throw UnclearChoice(path_.string() + ": which joints of " + topic_ +
+                              " are the wheels cannot be told from their names: " + listed(names),
+                          names, WheelProblem::joints_unclear);
+    pairs_.push_back(*recognised);
+    track_.remarks.push_back({"the wheels are the joints " + recognised->left + " and " + recognised->right,
+                              ChoiceRemark::joints_recognised,
+                              {recognised->left, recognised->right}});
+  }
+
+  void require_joints(const std::vector<std::string>& names) const {
+    std::set<std::string> used;
+    for (const JointPair& pair : pairs_)
+      for (const std::string& joint : {pair.left, pair.right}) {
+        if (std::ranges::find(names, joint) == names.end())
+          throw UnclearChoice(
+              path_.string() + ": " + topic_ + " has no joint '" + joint + "'; it has " + listed(names),
+              names, WheelProblem::joints_unclear);
+        if (!used.insert(joint).second)
+          throw UnclearChoice(path_.string() + ": two wheels are the joint " + joint, names,
+                              WheelProblem::joints_unclear);
+      }
+  }
+
   void take(const ros2::JointState& state, std::int64_t log_time_ns) {
-    const auto left =
-        static_cast<std::size_t>(std::ranges::find(state.names, joints_.left) - state.names.begin());
-    const auto right =
-        static_cast<std::size_t>(std::ranges::find(state.names, joints_.right) - state.names.begin());
-    if (left >= state.names.size() || right >= state.names.size()) return;
-    const bool positions = !state.positions.empty() && std::isfinite(state.positions[left]) &&
-                           std::isfinite(state.positions[right]);
+    std::vector<std::array<std::size_t, 2>> places;
+    bool positions = !state.positions.empty();
+    for (const JointPair& pair : pairs_) {
+      const auto place = [&](const std::string& joint) {
+        return static_cast<std::size_t>(std::ranges::find(state.names, joint) - state.names.begin());
+      };
+      places.push_back({place(pair.left), place(pair.right)});
+      for (const std::size_t each : places.back()) {
+        if (each >= state.names.size()) return;
+        positions = positions && std::isfinite(state.positions[each]);
+      }
+    }
     const std::vector<double>& values = positions ? state.positions : state.velocities;
-    if (values.empty() || !std::isfinite(values[left]) || !std::isfinite(values[right])) {
+    const auto is_missing = [&](const auto& pair) {
+      return values.empty() || !std::isfinite(values[pair[0]]) || !std::isfinite(values[pair[1]]);
+    };
+    if (std::ranges::any_of(places, is_missing)) {
       ++without_values_;
       return;
     }
     const bool stamped = track_.clock == WheelClock::stamp;
     if (stamped && stamps_.is_missing(state.time_ns)) return;
-    const WheelSample sample{stamped ? state.time_ns : log_time_ns, values[left], values[right]};
-    (positions ? track_.samples : velocities_).push_back(sample);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      (positions ? positions_ : velocities_)[i].push_back(
+          {stamped ? state.time_ns : log_time_ns, values[places[i][0]], values[places[i][1]]});
   }
 
-  void integrate_speeds() {
-    order_by_time(velocities_, topic_, track_.remarks);
-    integrate(velocities_, track_);
+  /// The travel of one pair. What is remarked on the order of messages is the same for all pairs.
+  std::vector<WheelSample> travel(std::size_t pair) {
+    WheelTrack track;
+    track.unit = WheelUnit::radians;
+    const bool integrates = positions_[pair].empty();
+    track.samples = std::move(integrates ? velocities_[pair] : positions_[pair]);
+    order_by_time(track.samples, topic_, track.remarks);
+    if (pair > 0) track.remarks.clear();
+    if (integrates && !track.samples.empty()) {
+      track.samples =
+          integral_of(track.samples, "the joints have no positions; their velocities", track.remarks);
+      if (pair > 0) track.remarks.clear();
+    } else {
+      unwrap(track, path_.string() + ": " + topic_);
+    }
+    track_.remarks.insert(track_.remarks.end(), track.remarks.begin(), track.remarks.end());
+    return std::move(track.samples);
+  }
+
+  /// By how much the wheels of a side differ, in percent of the way of the one that travels farthest.
+  void remark_on_side(const std::string& side, std::vector<double> ways, const std::string& names) {
+    const auto [least, most] = std::ranges::minmax(ways);
+    const std::string percent = fmt::format("{:.2g}", most > 0 ? 100 * (most - least) / most : 0);
+    track_.remarks.push_back(
+        {"the " + side + " wheel is the mean of " + names + ", whose ways differ by " + percent + " %",
+         ChoiceRemark::wheels_of_side_differ,
+         {side, percent}});
   }
 
   void finish(const bag::BagReport& report) {
     for (const std::string& warning : report.warnings) remark(warning);
-    if (track_.samples.empty() && !velocities_.empty()) {
-      integrate_speeds();
-    } else {
-      order_by_time(track_.samples, topic_, track_.remarks);
-      unwrap(track_, path_.string() + ": " + topic_);
+    std::vector<double> left_ways, right_ways;
+    std::string left_names, right_names;
+    const auto share = 1 / static_cast<double>(pairs_.size());
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const std::vector<WheelSample> wheels = travel(i);
+      left_ways.push_back(way_of(wheels, &WheelSample::left));
+      right_ways.push_back(way_of(wheels, &WheelSample::right));
+      left_names += (i == 0 ? "" : " and ") + pairs_[i].left;
+      right_names += (i == 0 ? "" : " and ") + pairs_[i].right;
+      if (i == 0) track_.samples.resize(wheels.size());
+      for (std::size_t k = 0; k < wheels.size(); ++k)
+        track_.samples[k] = {wheels[k].time_ns, track_.samples[k].left + share * wheels[k].left,
+                             track_.samples[k].right + share * wheels[k].right};
     }
     if (without_values_ > 0)
       remark(std::to_string(without_values_) +
@@ -146,21 +195,24 @@ class JointWheels {
     if (track_.clock == WheelClock::stamp) stamps_.remark("messages of " + topic_, track_.remarks);
     if (track_.samples.size() < 2)
       throw Error(path_.string() + ": " + topic_ + " has fewer than two messages with both wheels (" +
-                  joints_.left + ", " + joints_.right + "): name the right file");
+                  track_.joints.left + ", " + track_.joints.right + "): name the right file");
+    if (pairs_.size() == 1) return;
+    remark_on_side("left", left_ways, left_names);
+    remark_on_side("right", right_ways, right_names);
   }
 
   const std::filesystem::path& path_;
-  std::string topic_;
-  JointPair joints_;
-  StampCount stamps_;  // of the messages with the left wheel
+  const std::string topic_;
+  std::vector<JointPair> pairs_;  // the wheels, front to rear
+  StampCount stamps_;             // of the messages with the left wheel
   std::size_t without_values_ = 0;
-  std::vector<WheelSample> velocities_;
+  std::vector<std::vector<WheelSample>> positions_, velocities_;  // of each pair
   WheelTrack track_;
 };
 
 }  // namespace
 
-WheelTrack wheels_in_bag(const std::filesystem::path& path, const JointSelection& selection) {
+WheelTrack wheels_of_joints(const std::filesystem::path& path, const JointSelection& selection) {
   return JointWheels(path, selection).read();
 }
 

@@ -2,26 +2,30 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host/import/wheels/joint_names.hpp"
 #include "host/import/wheels/wheel_track.hpp"
 
 namespace astro::importing {
 
-/// What is not given is recognised: the topic if only one has that type, and the wheels by their names.
+/// Joints that are not given are recognised by their names.
 struct JointSelection {
   std::string topic;
-  JointPair joints;
+  JointPair joints = {};
+  /// Further wheels on the same sides: a side's travel is the mean of its wheels.
+  std::vector<JointPair> further = {};
 };
 
-/// The wheels in the sensor_msgs/msg/JointState messages of a bag: their positions in radians, made
-/// continuous, or the integral of their velocities (trapezoids) if they have no positions. Messages without
-/// both joints are skipped, because several drivers may share the topic. Times are header.stamp, and messages
-/// without a stamp are left out; but if most messages with these joints have no stamp, the recorder's times
-/// are used for all.
+/// The wheels in the sensor_msgs/msg/JointState messages of a topic of a bag: their positions in radians,
+/// made continuous, or the integral of their velocities (speed_integral.hpp) if they have no positions.
+/// Messages without all joints are skipped, because several drivers may share the topic. Times are
+/// header.stamp, and messages without a stamp are left out; but if most messages with these joints have no
+/// stamp, the recorder's times are used for all. If a side has several wheels, a remark says by how much
+/// their travel differs.
 ///
-/// Errors  UnclearChoice if topic or joints are neither given nor recognised, or not in the bag; astro::Error naming the
+/// Errors  UnclearChoice if joints are neither given nor recognised, or not in the bag; astro::Error naming the
 ///         file if it is no bag, or has fewer than two messages of the joints.
-WheelTrack wheels_in_bag(const std::filesystem::path& path, const JointSelection& selection = {});
+WheelTrack wheels_of_joints(const std::filesystem::path& path, const JointSelection& selection);
 
 }  // namespace astro::importing

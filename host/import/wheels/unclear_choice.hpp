@@ -7,19 +7,31 @@
 
 namespace astro::importing {
 
-/// What cannot be decided from a file alone. Values: what there is to choose from.
+/// What cannot be decided from a file alone. Values: what there is to choose from; of odometry_needs_sizes
+/// its topic.
 enum class WheelProblem {
   columns_unclear,
   joints_unclear,
   topic_unclear,
+  fields_unclear,
+  unit_unclear,
+  odometry_needs_sizes,
   poses_unclear,
   controller_unclear,
   nothing_to_choose
 };
 
 /// What a remark reports about a choice. Values: the joints of the left and of the right wheel; the stream of
-/// poses and its type.
-enum class ChoiceRemark { joints_recognised, poses_recognised, poses_may_be_estimate };
+/// poses and its type; the name of the source of the wheels (wheel_sources.hpp) and its unit; the topic of
+/// the odometry; the side and by how many percent the travel of its wheels differs.
+enum class ChoiceRemark {
+  joints_recognised,
+  poses_recognised,
+  poses_may_be_estimate,
+  wheels_recognised,
+  wheels_from_odometry,
+  wheels_of_side_differ
+};
 
 /// Thrown if a file alone does not show what was meant, or does not contain it; values() lists what there is
 /// to choose from.

@@ -19,7 +19,7 @@
 #include "host/formats/tables/time_column.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/restarts.hpp"
-#include "host/import/wheels/speeds.hpp"
+#include "host/import/wheels/speed_integral.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "host/import/wheels/wheel_columns.hpp"
 
@@ -202,7 +202,7 @@ class WheelRows {
     WheelTrack track;
     track.unit = columns_.unit;
     if (columns_.speeds) {
-      integrate(samples, track);
+      track.samples = integral_of(samples, "the speeds of the wheels", track.remarks);
       return track;
     }
     track.samples = std::move(samples);

@@ -49,6 +49,7 @@ struct WheelTrack {
   std::vector<WheelSample> samples;
   std::vector<Remark> remarks;  // what was inferred or left out
   JointPair joints;             // of a bag: those of the wheels
+  std::string odometry;  // of a bag: the topic from whose poses the wheels were worked out, otherwise ""
 };
 
 }  // namespace astro::importing

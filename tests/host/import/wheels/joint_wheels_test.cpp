@@ -1,4 +1,4 @@
-#include "host/import/wheels/joint_wheels.hpp"
+#include "host/import/wheels/bag_wheels.hpp"
 
 #include <gmock/gmock.h>
 
@@ -60,7 +60,7 @@ class JointWheels : public ::testing::Test {
     bag::made_bags::save(path, file);
     return path;
   }
-  Remark refusal(const Topics& topics, const JointSelection& selection) const {
+  Remark refusal(const Topics& topics, const BagWheelSelection& selection) const {
     return support::told_by([&] { wheels_in_bag(bag(topics), selection); });
   }
   const test::TemporaryFolder folder_;

@@ -60,6 +60,14 @@ TEST(WheelCsv, ATableWithoutAHeaderIsDescribedFromOutside) {
   EXPECT_THAT(wheels("a,b,c,d\n1,x,2,3\n2,x,4,5\n", table).samples.size(), 2U) << "the header is passed over";
 }
 
+/// Both wheels at an even pace from these counts.
+std::string paced(int left, int right, int first, int count) {
+  std::string rows;
+  for (int i = first; i < first + count; ++i)
+    rows += fmt::format("{:.2f},{},{}\n", 0.02 * i, left + 60 * (i - first), right + 50 * (i - first));
+  return rows;
+}
+
 /// A log of travel per interval, 20 rows a second, of a robot that stands, drives and stands. Some rows are lost, or the logger
 /// was late and the row after holds the travel of both.
 std::string interval_log(const std::vector<int>& missing, bool held_back) {
@@ -114,14 +122,6 @@ TEST(WheelCsv, CountersAndAnglesThatStartAgainAreMadeContinuous) {
   const WheelTrack turns = wheels("time_ns,left_rad,right_rad\n1,3.0,0\n2,-3.0,50\n");
   EXPECT_NEAR(turns.samples[1].left, 2 * std::numbers::pi - 3.0, 1e-12);
   EXPECT_EQ(turns.samples[1].right, 50);
-}
-
-/// Both wheels at an even pace from these counts.
-std::string paced(int left, int right, int first, int count) {
-  std::string rows;
-  for (int i = first; i < first + count; ++i)
-    rows += fmt::format("{:.2f},{},{}\n", 0.02 * i, left + 60 * (i - first), right + 50 * (i - first));
-  return rows;
 }
 
 TEST(WheelCsv, AResetWhileDrivingIsJoinedAtTheWheelsPace) {
@@ -290,6 +290,16 @@ TEST(WheelCsv, CountersOfAnyRangeAreMadeContinuous) {
       EXPECT_EQ(track.samples.back().right - track.samples.front().right, -(step - 1) * (rows - 1)) << range;
       EXPECT_EQ(track.remarks.size(), 2U) << range;
     }
+}
+
+TEST(WheelCsv, SingleWrongCountsAreNoRange) {
+  std::string rows = "time_s,left_counts,right_counts\n" + paced(100'000, 200'000, 0, 100);
+  for (const char* wrong : {"0.40,101200,", "1.20,103600,"}) {
+    const std::size_t at = rows.find(wrong) + 5;
+    rows.replace(at, 6, "900000");
+  }
+  EXPECT_THAT(wheels(rows).remarks, ElementsAre())
+      << "leaps are refused where the size of the wheels is known";
 }
 
 TEST(WheelCsv, ARangeThatTheDataDoNotShowIsAskedFor) {

@@ -5,6 +5,7 @@
 
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/host/import/drives/drive_files.hpp"
+#include "tests/host/import/drives/file_samples.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/programs/program.hpp"
@@ -344,6 +345,32 @@ TEST_F(Files, AreInspected) {
   const Outcome unknown = astrolabe({"inspect", at("noise.bin")});
   EXPECT_EQ(unknown.code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("noise.bin"));
+}
+
+TEST_F(Files, InBagsOfRos1AreInspectedAndCalibratedByTheTopicsOfTheWheels) {
+  test::save(at("drive.bag"), test::ros1_bag_of_counts(drives(1)[0]));
+  const Outcome inspected = astrolabe({"inspect", at("drive.bag")});
+  EXPECT_THAT(inspected.out, StartsWith("ROS 1 bag of 1 file."));
+  EXPECT_THAT(inspected.out,
+              HasSubstr("'calibrate' takes the wheels from /lwheel_ticks,/rwheel_ticks (counts)."));
+  const auto calibrated = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"calibrate", "bag", at("drive.bag"), "--truth-topic", "/vicon/tf"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words, sizes());
+  };
+  const Outcome found = calibrated({"--json"});
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.err, HasSubstr("the wheels are /lwheel_ticks,/rwheel_ticks in counts"));
+  EXPECT_NEAR(support::parse_json(found.out)["b_m"].get<double>(), calibration::astro_drive().actual.b_m,
+              1e-3);
+  const Outcome named =
+      calibrated({"--wheels-topic", "/rwheel_ticks,/lwheel_ticks", "--swap-wheels", "--json"});
+  EXPECT_EQ(support::parse_json(named.out)["b_m"], support::parse_json(found.out)["b_m"]) << named.err;
+  const Outcome half = calibrated({"--wheels-topic", "/lwheel_ticks"});
+  EXPECT_EQ(half.code, 1);
+  EXPECT_THAT(half.err, HasSubstr("--wheels-topic TOPIC:LEFT,RIGHT"));
+  for (const char* joints : {"a+b,c", "a,b,c", "a+,b+c"})
+    EXPECT_EQ(calibrated({"--joints", joints}).code, kWrongUsage);
 }
 
 TEST_F(Files, ThatRobotsCarryAreNotReplacedWithoutAQuestion) {
