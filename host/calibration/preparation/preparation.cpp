@@ -208,19 +208,19 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, double wheelba
   for (const BodySample& sample : run.truth) {
     if (!std::isfinite(sample.x_m) || !std::isfinite(sample.y_m)) continue;
     if (prepared.has_headings && !std::isfinite(sample.theta_rad)) continue;
+    // Compares the tracker's own times, because the selection of samples must not depend on the estimated
+    // clock offset.
+    if (!slow && sample.time_s - last_s < spacing_s) continue;
+    last_s = sample.time_s;
     const double u = clock.robot_time_s(sample.time_s, prepared.clock_middle_s);
     if (u < run.wheels.front().time_s + kMargin_s || u > run.wheels.back().time_s - kMargin_s) continue;
     while (gap != prepared.gaps.end() && gap->end_s - kMargin_s <= u) ++gap;
     if (gap != prepared.gaps.end() && gap->begin_s + kMargin_s < u) continue;
-    if (slow) {
-      if (const auto settled = next_to_wheels.take(sample, u)) prepared.truth.push_back(*settled);
-      continue;
+    if (!slow) {
+      prepared.truth.push_back(sample);
+    } else if (const auto settled = next_to_wheels.take(sample, u)) {
+      prepared.truth.push_back(*settled);
     }
-    // Compares the tracker's own times, because the selection of samples must not depend on the estimated
-    // clock offset.
-    if (sample.time_s - last_s < spacing_s) continue;
-    last_s = sample.time_s;
-    prepared.truth.push_back(sample);
   }
   if (next_to_wheels.last()) prepared.truth.push_back(*next_to_wheels.last());
   return prepared;

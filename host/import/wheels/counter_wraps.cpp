@@ -107,6 +107,9 @@ std::optional<Bounds> unusual_range(const std::vector<WheelSample>& samples, Whe
     if (std::abs(steps[i]) <= half) continue;
     // Across the end the wheel moved as in the steps before and after.
     const double moved = (steps[i - 1] + steps[i + 1]) / 2;
+    // A single wrong count jumps away and back; a counter at its end jumps against the motion.
+    if (std::abs(steps[i - 1]) > half || std::abs(steps[i + 1]) > half || moved * steps[i] > 0)
+      return std::nullopt;
     sizes.push_back(steps[i] < 0 ? moved - steps[i] : steps[i] - moved);
   }
   if (sizes.size() < kFewestJumps) return std::nullopt;

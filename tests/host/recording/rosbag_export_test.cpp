@@ -5,7 +5,7 @@
 #include "host/formats/files/bag.hpp"
 #include "host/formats/files/yaml_scalars.hpp"
 #include "host/formats/messages/text_message.hpp"
-#include "host/import/wheels/joint_wheels.hpp"
+#include "host/import/wheels/bag_wheels.hpp"
 #include "host/import/wheels/pose_topics.hpp"
 #include "host/recording/robot_messages.hpp"
 #include "tests/host/formats/files/made_bags.hpp"

@@ -52,7 +52,7 @@ TEST_F(FileSentences, TellWhatIsWrongWithATableOfWheels) {
   const std::string head = "time_s,left_counts,right_counts\n";
   write("names.csv", "when,a,b\n1,2,3\n");
   write("word.csv", head + "1,2,x\n");
-  write("comma.csv", "time_s;left_counts;right_counts\n1,0;2;3\n1,1;2;3\n");
+  write("comma.csv", "time_s,left_rad,right_rad\n1,0,2,5,3,5\n1,1,2,5,3,5\n");
   write("back.csv", head + "2,2,3\n1,2,3\n");
   write("short.csv", head + "2,2,3\n");
   write("empty.csv", "");
@@ -60,24 +60,24 @@ TEST_F(FileSentences, TellWhatIsWrongWithATableOfWheels) {
   std::string lost = head, restart = head;
   for (int i = 0; i < 40; ++i) {
     if (i != 10 && i != 11 && i != 25) lost += fmt::format("{:.1f},10,10\n", 0.1 * i);
-    restart += fmt::format("{0:.1f},{1},{1}\n", 0.1 * i, 100 * (i % 20) + (i < 20 ? 50'000 : 0));
+    restart += fmt::format("{:.1f},{},{}\n", 0.1 * i, 100 * (i % 20) + (i < 20 ? 50'000 : 0), 90 * i);
   }
   write("lost.csv", lost);
   write("restart.csv", restart);
   expect({
       {"columns without a meaning", files("names.csv", "t.tum"),
-       "names.csv: the columns do not tell time, left and right wheel with their units: when, a, b: describe "
-       "the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, ..._m; - "
-       "for one that is not used)"},
-      {"a word for a number", files("word.csv", "t.tum"), "word.csv, line 2: column 3: 'x' is not a number"},
+       "names.csv: no column is named as a time; the columns are when, a, b: say what they are with "
+       "--wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, ..._m, ..._rad_s, ..._rpm, "
+       "..._m_s; - for one that is not used)"},
+      {"a word for a number", files("word.csv", "t.tum"), "word.csv, line 2, column 3: 'x' is not a number"},
       {"decimal commas", files("comma.csv", "t.tum"),
-       "comma.csv, line 2: column 1: '1,0' is not a time; write it with a decimal point"},
+       "comma.csv, line 2: the row has 6 cells and the header 3: are its numbers written with decimal "
+       "commas? Save the table with semicolons or tabs between the cells"},
       {"a time before that above", files("back.csv", "t.tum"),
        "back.csv, line 3: the time is before that of the row above: sort the rows"},
       {"one row", files("short.csv", "t.tum"),
        "short.csv, line 2: the table ends with fewer than two rows of wheels"},
-      {"an empty file", files("empty.csv", "t.tum"),
-       "empty.csv, line 1: the table ends with fewer than two rows of wheels"},
+      {"an empty file", files("empty.csv", "t.tum"), "'empty.csv' is empty"},
       {"an empty cell in travel", files("gap.csv", "t.tum", " --per-interval"),
        "gap.csv, line 3: a cell is empty, and travel per interval cannot be left out: give every column a "
        "cell, and write numbers with a decimal point"},
@@ -106,7 +106,8 @@ TEST_F(FileSentences, TellWhatIsWrongWithADrive) {
       {"a leap", files("leap.csv", "t.tum"),
        "'leap.csv' with 't.tum': 'leap': a wheel leaps by 3.99 m between the samples at 0.100 s and 0.200 s, "
        "as where a counter starts again; cut the recording there, or check the unit of the wheels and "
-       "whether their rows are travel --per-interval"},
+       "whether their rows are travel --per-interval; a counter that starts again at its end needs "
+       "--counter-range"},
       {"a gap of many turns", files("far.csv", "t.tum"),
        "'far.csv' with 't.tum': 'far': a wheel turns more than 100 times between the samples at 0.100 s and "
        "60.000 s: check the unit of the wheels, and whether their rows are travel --per-interval"},
@@ -171,13 +172,12 @@ TEST_F(FileSentences, TellWhatIsWrongWithAFileOfATracker) {
        "the take, and export it again with rigid bodies switched on"},
       {"no header", files("w.csv", "numbers.csv"),
        "'numbers.csv' begins with numbers: without a header its columns have no meaning: export the "
-       "recording again with its header"},
+       "recording again with its header; or say what they are with --truth-columns, such as "
+       "time_s,x_m,y_m,theta_rad"},
       {"columns without a meaning", files("w.csv", "names.csv"),
-       "'names.csv' is none of the recordings that can be read: Motive CSV, Vicon CSV, TUM, EuRoC, or CSV "
-       "with the columns time_s, x_m, y_m"},
-      {"an empty file", files("w.csv", "empty.csv"),
-       "'empty.csv' is none of the recordings that can be read: Motive CSV, Vicon CSV, TUM, EuRoC, or CSV "
-       "with the columns time_s, x_m, y_m"},
+       "'names.csv' has no columns for the time and for x and y, such as time_s, x_m and y_m; its columns "
+       "are time_s, a, b: say what they are with --truth-columns"},
+      {"an empty file", files("w.csv", "empty.csv"), "'empty.csv' is empty"},
       {"a word for a number", files("w.csv", "word.csv"),
        "word.csv, line 3, column 2: 'abc' is not a number"},
       {"a time before that above", files("w.csv", "back.csv"),
@@ -188,7 +188,8 @@ TEST_F(FileSentences, TellWhatIsWrongWithAFileOfATracker) {
        "units.csv, line 1, column 3: the positions have different units, 'm' and 'mm'"},
       {"one line", files("w.csv", "line.csv"),
        "'w.csv' with 'line.csv': the recording does not show which axis points up: the body neither turned "
-       "nor drove a curve: drive both ways round, and lines as well as turns"},
+       "nor drove a curve: drive both ways round, and lines as well as turns; or give the axis that points "
+       "up with --up"},
       {"centimetres for metres", files("w.csv", "hundredfold.csv"),
        "c_R = 101, c_L = 100 and b = 29 m came out, which no robot of 0.29 m wheelbase has: check the unit "
        "of the ground truth, the wheel diameter and the counts of a turn"},

@@ -121,16 +121,15 @@ TEST_F(OtherSentences, TellThatAFileIsOfNoKnownKind) {
   expect({
       {"no file", "inspect none", "none does not exist: check the path"},
       {"an empty folder", "inspect drives", "drives is a folder: name a file in it"},
-      {"an empty file", "inspect empty.csv",
-       "empty.csv, line 1: the table ends with fewer than two rows of wheels"},
+      {"an empty file", "inspect empty.csv", "'empty.csv' is empty"},
       {"columns without a meaning", "inspect names.csv",
-       "names.csv: the columns do not tell time, left and right wheel with their units: time_s, a, b: "
-       "describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
-       "..._m; - for one that is not used)"},
+       "names.csv: no columns are named as the left and the right wheel; the columns are time_s, a, b: say "
+       "what they are with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, ..._m, "
+       "..._rad_s, ..._rpm, ..._m_s; - for one that is not used)"},
       {"text with the name of a recording", "inspect text.mcap",
-       "text.mcap: the columns do not tell time, left and right wheel with their units: nothing, that, was, "
-       "recorded: describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also "
-       "..._rad, ..._m; - for one that is not used)"},
+       "text.mcap: no column is named as a time; the columns are nothing, that, was, recorded: say what they "
+       "are with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, ..._m, ..._rad_s, "
+       "..._rpm, ..._m_s; - for one that is not used)"},
       {"zeros", "inspect zero.bin",
        "zero.bin is not plain text: byte 1 is zero: save the table as comma separated UTF-8"},
       {"cut off", "inspect open.toml",

@@ -50,7 +50,7 @@ TEST_F(UnusedChoices, AboutOtherKindsOfFilesAreRefusedByName) {
   given.table.columns = "time_s,left_counts,right_counts";
   const std::string no_table = " does not apply here: none of the files of wheels is a table",
                     no_joints =
-                        " does not apply here: none of the files of wheels is a bag with messages of joints",
+                        " does not apply here: none of the files of wheels is a bag of another program",
                     no_poses = " does not apply here: none of the files of ground truth is a bag";
   EXPECT_EQ(refused(given), "--wheel-columns" + no_table);
   given = bag;
@@ -65,6 +65,9 @@ TEST_F(UnusedChoices, AboutOtherKindsOfFilesAreRefusedByName) {
   given = text;
   given.wheels_topic = "/joint_states";
   EXPECT_EQ(refused(given), "--wheels-topic" + no_joints);
+  given = text;
+  given.wheels_unit = "rad";
+  EXPECT_EQ(refused(given), "--wheels-unit" + no_joints);
   given = text;
   given.truth_topic = "/mocap";
   EXPECT_EQ(refused(given), "--truth-topic" + no_poses);

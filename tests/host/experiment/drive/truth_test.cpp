@@ -154,7 +154,7 @@ TEST_F(FileTruth, AsksAgainForAFileThatCannotBeReadNamingWhatIsWrongWithIt) {
               testing::StartsWith("the ground truth of this run belongs into '" + file.string()));
   EXPECT_THAT(asked[1].occasion, Tells(TruthFileProblem::no_position, file.string(), "1"));
   EXPECT_THAT(asked[2].occasion, Tells(TruthFileProblem::too_few_poses, file.string()));
-  EXPECT_THAT(asked[3].occasion, Tells(TruthFileProblem::not_a_number, file.string(), "3", "nan"));
+  EXPECT_THAT(asked[3].occasion, Tells(TruthFileProblem::not_a_number, file.string(), "3", "1", "nan"));
   for (int i : {1, 2, 3}) EXPECT_EQ(asked[i].text, "") << "the error says it all, and no key";
   using enum truth::AnswerKind;
   EXPECT_THAT(answers, testing::ElementsAre(file_saved, file_corrected, file_corrected, file_corrected));
@@ -194,7 +194,7 @@ TEST_F(FileTruth, RefusesTimesThatAreNoneAndAnEndThatIsHardlyThatOfTheRun) {
   EXPECT_NEAR(recording::end_error(run_).x_m, 0.5 - run_.odometry.back().x_m, 1e-6);
   ASSERT_EQ(asked.size(), 3U);
   EXPECT_THAT(asked[0].occasion, Tells(TruthFileProblem::time_not_increasing, file.string(), "4"));
-  EXPECT_THAT(asked[1].occasion, Tells(TruthFileProblem::not_a_number, file.string(), "3", "noon"));
+  EXPECT_THAT(asked[1].occasion, Tells(TruthFileProblem::not_a_number, file.string(), "3", "1", "noon"));
   EXPECT_THAT(asked[2].text,
               testing::AllOf(HasSubstr("before-line-1.csv"), HasSubstr("999.5 m from where odometry ends")));
 }

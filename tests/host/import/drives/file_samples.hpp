@@ -10,13 +10,19 @@
 #include <vector>
 
 #include "host/base/files.hpp"
+#include "host/base/pose2.hpp"
+#include "host/calibration/motion/arc.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/mcap_records.hpp"
+#include "host/formats/messages/geometry.hpp"
 #include "host/formats/messages/joint_state.hpp"
+#include "host/formats/messages/ros_messages.hpp"
+#include "host/formats/messages/sensors.hpp"
 #include "host/formats/messages/stamped_pose.hpp"
 #include "host/recording/run_file.hpp"
 #include "tests/host/import/drives/drive_files.hpp"
 #include "tests/support/base/gzip.hpp"
+#include "tests/support/ros1/ros1_bag.hpp"
 
 /// One short drive in every format that is imported, small enough to be damaged a thousand times.
 namespace astro::test {
@@ -120,6 +126,86 @@ inline Bytes mcap_bag(const calibration::Trajectory& run, const std::string& com
   return bag.closed();
 }
 
+inline constexpr std::int64_t kRos1Start_ns = 1'600'000'000'000'000'000;
+
+inline ros2::msg::Header header_at(std::int64_t time_ns) { return {ros2::msg::to_time(time_ns), "map"}; }
+
+inline std::int64_t ros1_time_ns(double time_s) { return kRos1Start_ns + std::llround(1e9 * time_s); }
+
+inline Bytes ros1_bag(const calibration::Trajectory& run, const std::string& compression) {
+  support::Ros1Bag bag(compression);
+  bag.topic(1, "/joint_states", "sensor_msgs/JointState", support::ros1::kJointState);
+  bag.topic(2, "/tracker/pose", "geometry_msgs/PoseStamped", support::ros1::kPoseStamped);
+  for (const auto& at : run.wheels) {
+    const std::int64_t time_ns = ros1_time_ns(at.time_s);
+    const ros2::msg::JointState state{header_at(time_ns),
+                                      {"wheel_left_joint", "wheel_right_joint"},
+                                      {2 * at.left_m / kDiameter_m, 2 * at.right_m / kDiameter_m},
+                                      {},
+                                      {}};
+    bag.message(1, time_ns, support::Ros1Message::encode(state));
+  }
+  bag.end_chunk();
+  for (const auto& at : run.truth) {
+    const std::int64_t time_ns = ros1_time_ns(at.time_s);
+    const BodyPose p = pose_of(at);
+    const ros2::msg::PoseStamped pose{header_at(time_ns), {{p.x, p.y, p.z}, {p.qx, p.qy, p.qz, p.qw}}};
+    bag.message(2, time_ns, support::Ros1Message::encode(pose));
+  }
+  return bag.closed();
+}
+
+/// A topic of counts for each wheel, and a tracker that publishes transforms.
+inline Bytes ros1_bag_of_counts(const calibration::Trajectory& run) {
+  support::Ros1Bag bag;
+  bag.topic(1, "/lwheel_ticks", "std_msgs/Int32", "int32 data\n");
+  bag.topic(2, "/rwheel_ticks", "std_msgs/Int32", "int32 data\n");
+  bag.topic(3, "/vicon/tf", "tf2_msgs/TFMessage", support::ros1::kTf);
+  const auto counts = [](double way_m) {
+    Bytes bytes;
+    append(bytes, static_cast<std::int32_t>(std::llround(way_m / kMetresPerCount)));
+    return bytes;
+  };
+  for (const auto& at : run.wheels) {
+    bag.message(1, ros1_time_ns(at.time_s), counts(at.left_m));
+    bag.message(2, ros1_time_ns(at.time_s), counts(at.right_m));
+  }
+  for (const auto& at : run.truth) {
+    const std::int64_t time_ns = ros1_time_ns(at.time_s);
+    const BodyPose p = pose_of(at);
+    const ros2::msg::TransformStamped transform{
+        header_at(time_ns), "robot", {{p.x, p.y, p.z}, {p.qx, p.qy, p.qz, p.qw}}};
+    bag.message(3, time_ns, support::Ros1Message::encode(ros2::msg::TFMessage{{transform}}));
+  }
+  return bag.closed();
+}
+
+/// The robot's own odometry by these factors, and a tracker.
+inline Bytes ros1_bag_of_odometry(const calibration::Trajectory& run,
+                                  const calibration::WheelFactors& factors) {
+  support::Ros1Bag bag("bz2");
+  bag.topic(1, "/odom", "nav_msgs/Odometry", support::ros1::kOdometry);
+  bag.topic(2, "/vrpn_client_node/robot/pose", "geometry_msgs/PoseStamped", support::ros1::kPoseStamped);
+  Pose2 pose;
+  for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+    const auto& at = run.wheels[i];
+    const auto& before = run.wheels[i == 0 ? 0 : i - 1];
+    calibration::advance(pose, at.right_m - before.right_m, at.left_m - before.left_m, factors);
+    ros2::msg::Odometry odometry;
+    odometry.header = header_at(ros1_time_ns(at.time_s));
+    odometry.child_frame_id = "base_link";
+    odometry.pose.pose = ros2::planar_pose(pose.x_m, pose.y_m, pose.theta_rad);
+    bag.message(1, ros1_time_ns(at.time_s), support::Ros1Message::encode(odometry));
+  }
+  for (const auto& at : run.truth) {
+    const BodyPose p = pose_of(at);
+    const ros2::msg::PoseStamped truth{header_at(ros1_time_ns(at.time_s)),
+                                       {{p.x, p.y, p.z}, {p.qx, p.qy, p.qz, p.qw}}};
+    bag.message(2, ros1_time_ns(at.time_s), support::Ros1Message::encode(truth));
+  }
+  return bag.closed();
+}
+
 inline recording::Run own_run(const calibration::Trajectory& drive) {
   recording::Run run;
   run.info.kind = "free";
@@ -163,7 +249,7 @@ struct FileSample {
   Bytes bytes;
 };
 
-inline constexpr std::size_t kFileSamples = 17;
+inline constexpr std::size_t kFileSamples = 21;
 
 /// Makes all kFileSamples below `folder`.
 inline std::vector<FileSample> file_samples(const fs::path& folder) {
@@ -203,6 +289,10 @@ inline std::vector<FileSample> file_samples(const fs::path& folder) {
           {"MCAP of ROS 2, lz4", "x.mcap", Holds::both, false, mcap_bag(drive, "lz4")},
           {"MCAP of ROS 2, zstd", "x.mcap", Holds::both, false, mcap_bag(drive, "zstd")},
           {"MCAP of ROS 2, packed", "x.mcap.zstd", Holds::both, false, bag::compress_zstd(stored)},
+          {"ROS 1 bag, stored", "x.bag", Holds::both, false, ros1_bag(drive, "none")},
+          {"ROS 1 bag, bz2", "x.bag", Holds::both, false, ros1_bag(drive, "bz2")},
+          {"ROS 1 bag, lz4", "x.bag", Holds::both, false, ros1_bag(drive, "lz4")},
+          {"ROS 1 bag of counts and transforms", "x.bag", Holds::both, false, ros1_bag_of_counts(drive)},
           {"our MCAP", "x.mcap", Holds::both, false, own},
           {"robot TOML", "x.toml", Holds::robot, true, of(kRobotToml)},
           {"robot YAML", "x.yaml", Holds::robot, true, of(kRobotYaml)}};

@@ -209,6 +209,29 @@ TEST_F(Import, FindsTheSameInABagThatHoldsBoth) {
               HasSubstr("of '/tracker/pose' (ROS 2 bag, /tracker/pose of geometry_msgs/msg/PoseStamped)"));
 }
 
+TEST_F(Import, FindsTheSameInBagsOfRos1) {
+  const WheelFactors expected = by_counts_and_tum();
+  std::vector<DriveFiles> joints, counts, odometry;
+  const auto add = [&](std::vector<DriveFiles>& list, const std::string& name, const Bytes& bag) {
+    const fs::path path = at(name + std::to_string(list.size()) + ".bag");
+    test::save(path, bag);
+    list.push_back({path, path});
+  };
+  for (const Trajectory& drive : drives()) {
+    add(joints, "joints", test::ros1_bag(drive, "lz4"));
+    add(counts, "counts", test::ros1_bag_of_counts(drive));
+    add(odometry, "odometry", test::ros1_bag_of_odometry(drive, {1, 1, 0.29}));
+  }
+  for (const auto& list : {joints, counts})
+    expect_like(calibrated(list, choices()).factors, expected, kRounding);
+  ImportChoices sizes = choices();
+  sizes.wheels.bag.odometry = sizes.geometry.factors();
+  expect_like(calibrated(odometry, sizes).factors, expected, kRounding);
+  sizes.truth.poses.topic = "/odom";
+  EXPECT_THAT(told_by([&] { import_drives(odometry, sizes); }),
+              Tells(ImportProblem::odometry_is_truth, "/odom"));
+}
+
 TEST_F(Import, FindsTheSameWhereTheClocksHaveNothingInCommon) {
   const WheelFactors expected = by_counts_and_tum();
   const auto since_1970 = [](auto path, auto& run) { return test::write_tum(path, run, test::z_up, 1.7e9); };

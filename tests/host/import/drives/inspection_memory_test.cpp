@@ -63,6 +63,25 @@ TEST_F(InspectionMemory, OfAnMcapBagDoesNotGrowWithTheFile) {
         std::size_t{4} << 20, std::size_t{32} << 20);
 }
 
+TEST_F(InspectionMemory, OfARos1BagDoesNotGrowWithTheFile) {
+  for (const std::string compression : {"none", "lz4"})
+    expect_same(
+        [&](std::size_t bytes) {
+          support::Ros1Bag bag(compression);
+          bag.topic(1, "/tf", "tf/tfMessage", support::ros1::kTf);
+          for (std::int64_t i = 0; bag.file().size() < bytes; ++i) {
+            const ros2::msg::TransformStamped transform{
+                test::header_at(i), "robot", {{noise(), noise(), noise()}, {0, 0, noise(), noise()}}};
+            bag.message(1, i, support::Ros1Message::encode(ros2::msg::TFMessage{{transform}}));
+            if (bag.open_bytes() > (std::size_t{1} << 19)) bag.end_chunk();
+          }
+          const fs::path path = at(compression + std::to_string(bytes) + ".bag");
+          test::save(path, bag.closed());
+          return path;
+        },
+        std::size_t{2} << 20, std::size_t{12} << 20);
+}
+
 TEST_F(InspectionMemory, OfADatabaseDoesNotGrowWithTheFile) {
   expect_same(
       [&](std::size_t bytes) {

@@ -12,6 +12,7 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/formats/tables/table.hpp"
 #include "host/import/drives/import_drives.hpp"
+#include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "host/import/wheels/wheel_csv.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
@@ -24,9 +25,9 @@ namespace astro::importing {
 namespace {
 
 namespace fs = std::filesystem;
-using calibration::BodySample;
 using calibration::Trajectory;
-using calibration::WheelSample;
+using TruthAt = calibration::BodySample;
+using WheelsAt = calibration::WheelSample;
 
 /// What a person has: files, and perhaps something to say about them.
 struct Recording {
@@ -100,14 +101,14 @@ std::string utf16(const std::string& text) {
 }
 
 std::string counts_in(const Trajectory& run, const char* head = "time_s,left_counts,right_counts\n") {
-  return rows(head, run.wheels, [](const WheelSample& at) {
+  return rows(head, run.wheels, [](const WheelsAt& at) {
     return fmt::format("{:.6f},{},{}", at.time_s, Robot::counts(at.left_m), Robot::counts(at.right_m));
   });
 }
 
 /// Counts of a counter with this range, which begins somewhere.
 std::string counts_around(const Trajectory& run, double range) {
-  return rows("time_s,left_counts,right_counts\n", run.wheels, [=](const WheelSample& at) {
+  return rows("time_s,left_counts,right_counts\n", run.wheels, [=](const WheelsAt& at) {
     const auto around = [=](double count) { return count - range * std::floor(count / range); };
     return fmt::format("{:.6f},{},{}", at.time_s, around(Robot::counts(at.left_m) + 100),
                        around(Robot::counts(at.right_m) + 200));
@@ -120,18 +121,18 @@ std::string clock_time(double time_s) {
   return fmt::format("{:02d}:{:02d}:{:09.6f}", minutes / 60, minutes % 60, of_day - 60 * minutes);
 }
 
-Trajectory changed(Trajectory run, const std::function<void(WheelSample&)>& change) {
-  for (WheelSample& sample : run.wheels) change(sample);
+Trajectory changed(Trajectory run, const std::function<void(WheelsAt&)>& change) {
+  for (WheelsAt& sample : run.wheels) change(sample);
   return run;
 }
 
 Trajectory without(Trajectory run, double from_s, double to_s) {
-  std::erase_if(run.wheels, [=](const WheelSample& at) { return at.time_s > from_s && at.time_s < to_s; });
+  std::erase_if(run.wheels, [=](const WheelsAt& at) { return at.time_s > from_s && at.time_s < to_s; });
   return run;
 }
 
 std::string truth_in(const Trajectory& run, const char* head,
-                     const std::function<std::string(const BodySample&)>& row) {
+                     const std::function<std::string(const TruthAt&)>& row) {
   return rows(head, run.truth, row);
 }
 
@@ -141,11 +142,11 @@ struct OddKind {
   std::vector<Kind> refused = {};  // one of these; empty: the factors are right
 };
 
-void swap_wheels(WheelSample& at) { std::swap(at.left_m, at.right_m); }
-void reverse_wheels(WheelSample& at) { at.left_m = -at.left_m, at.right_m = -at.right_m; }
+void swap_wheels(WheelsAt& at) { std::swap(at.left_m, at.right_m); }
+void reverse_wheels(WheelsAt& at) { at.left_m = -at.left_m, at.right_m = -at.right_m; }
 
 /// Counts after a fault of wiring, with what a person says about it.
-Recording wired(const Robot& robot, const std::function<void(WheelSample&)>& fault, bool swapped,
+Recording wired(const Robot& robot, const std::function<void(WheelsAt&)>& fault, bool swapped,
                 bool reversed) {
   Recording recording = robot.with([&](const Trajectory& run) { return counts_in(changed(run, fault)); });
   recording.choices.wheels.exchanged = swapped;
@@ -181,7 +182,7 @@ std::vector<OddKind> odd_kinds() {
     return [=](const Trajectory& run) {
       std::string text = head;
       for (std::size_t i = 1; i + 1 < run.wheels.size(); ++i) {
-        const WheelSample &a = run.wheels[i - 1], &b = run.wheels[i + 1];
+        const WheelsAt &a = run.wheels[i - 1], &b = run.wheels[i + 1];
         const double per_s = per_metre / (b.time_s - a.time_s);
         text += fmt::format("{:.6f},{:.9f},{:.9f}\n", run.wheels[i].time_s, per_s * (b.left_m - a.left_m),
                             per_s * (b.right_m - a.right_m));
@@ -324,7 +325,7 @@ std::vector<OddKind> odd_kinds() {
          Recording recording = robot.recording();
          const Recording plain = robot.with([](const Trajectory& run) {
            double left = 0, right = 0;
-           return rows("time_s,left_counts,right_counts\n", run.wheels, [&](const WheelSample& at) {
+           return rows("time_s,left_counts,right_counts\n", run.wheels, [&](const WheelsAt& at) {
              const double l = Robot::counts(at.left_m), r = Robot::counts(at.right_m);
              return fmt::format("{:.6f},{},{}", at.time_s, l - std::exchange(left, l),
                                 r - std::exchange(right, r));
@@ -337,7 +338,7 @@ std::vector<OddKind> odd_kinds() {
       {"travel per interval, forgotten",
        wheels([](auto& run) {
          double left = 0, right = 0;
-         return rows("time_s,left_counts,right_counts\n", run.wheels, [&](const WheelSample& at) {
+         return rows("time_s,left_counts,right_counts\n", run.wheels, [&](const WheelsAt& at) {
            const double l = Robot::counts(at.left_m), r = Robot::counts(at.right_m);
            return fmt::format("{:.6f},{},{}", at.time_s, l - std::exchange(left, l),
                               r - std::exchange(right, r));
@@ -362,7 +363,7 @@ std::vector<OddKind> odd_kinds() {
       {"a reset on the way", wheels([](auto& run) {
          Trajectory again = run;
          const std::size_t from = again.wheels.size() / 3;
-         const WheelSample at = again.wheels[from];
+         const WheelsAt at = again.wheels[from];
          for (std::size_t i = from; i < again.wheels.size(); ++i) {
            again.wheels[i].left_m -= at.left_m;
            again.wheels[i].right_m -= at.right_m;
@@ -371,7 +372,7 @@ std::vector<OddKind> odd_kinds() {
        })},
       {"zeros before the counters were read", wheels([](auto& run) {
          return "time_s,left_counts,right_counts\n-1,0,0\n" +
-                counts_in(changed(run, [](WheelSample& at) { at.left_m += 7, at.right_m += 8; }), "");
+                counts_in(changed(run, [](WheelsAt& at) { at.left_m += 7, at.right_m += 8; }), "");
        })},
       {"half a second lost twice",
        wheels([](auto& run) { return counts_in(without(without(run, 9, 9.5), 20, 20.5)); })},
@@ -396,19 +397,19 @@ std::vector<OddKind> odd_kinds() {
       {"exchanged and reversed",
        [](const Robot& robot) {
          return wired(
-             robot, [](WheelSample& at) { swap_wheels(at), reverse_wheels(at); }, false, false);
+             robot, [](WheelsAt& at) { swap_wheels(at), reverse_wheels(at); }, false, false);
        },
        {Doubt::drives_backward}},
       {"one encoder twice",
        [](const Robot& robot) {
          return wired(
-             robot, [](WheelSample& at) { at.right_m = at.left_m; }, false, false);
+             robot, [](WheelsAt& at) { at.right_m = at.left_m; }, false, false);
        },
        {Doubt::wheels_equal}},
       {"a dead encoder",
        [](const Robot& robot) {
          return wired(
-             robot, [](WheelSample& at) { at.right_m = 0; }, false, false);
+             robot, [](WheelsAt& at) { at.right_m = 0; }, false, false);
        },
        {Doubt::wheel_stands}},
       {"truth saved again by a spreadsheet", truth([](auto& run) {
