@@ -7,11 +7,11 @@
 
 #include "host/base/error.hpp"
 #include "host/film/camera/figure_check.hpp"
+#include "host/film/camera/film_poses.hpp"
 #include "host/film/camera/scene.hpp"
 #include "host/film/picture/film_info.hpp"
 #include "host/film/track/camera_motion.hpp"
 #include "host/film/track/film_figures.hpp"
-#include "host/film/camera/film_poses.hpp"
 #include "host/film/track/film_sightings.hpp"
 
 /// Computes the robot's path from a film that shows a tag on the robot and tags on the floor.

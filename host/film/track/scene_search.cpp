@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
-#include "host/film/picture/how_to_film.hpp"
 #include "host/film/camera/film_poses.hpp"
+#include "host/film/picture/how_to_film.hpp"
 
 namespace astro::film {
 namespace {
