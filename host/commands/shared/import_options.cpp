@@ -139,12 +139,10 @@ constexpr Advice kImportAdvice[] = {
      "up"},
     {importing::ImportProblem::encoders_reversed,
      ": give --reverse-wheels; or, if the robot did drive backward, --swap-wheels if left and right are "
-     "exchanged, or "
-     "--up with the axis of the tracker that points up"},
+     "exchanged, or --up with the axis of the tracker that points up"},
     {importing::ImportProblem::drives_backward,
      ": if it drove forward, give --swap-wheels and --reverse-wheels, or the other of the two if one is "
-     "given; if it did "
-     "drive backward, --drives-backward"},
+     "given; if it did drive backward, give --drives-backward"},
     {importing::ImportProblem::per_interval_likely, ": give --per-interval"},
     {importing::ImportProblem::turns_against_stated_up,
      ": give --swap-wheels if left and right are exchanged, or another axis to --up"},

@@ -12,6 +12,7 @@
 #include "host/base/error.hpp"
 #include "host/base/order_statistics.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/import/wheels/restarts.hpp"
 
 namespace astro::importing {
 namespace {
@@ -212,7 +213,9 @@ std::optional<Range> range_of(const WheelTrack& track, Wheel wheel, const std::s
 }  // namespace
 
 void unwrap(WheelTrack& track, const std::string& name, std::optional<double> stated) {
-  if (track.samples.empty() || track.unit == WheelUnit::metres) return;
+  if (track.samples.empty()) return;
+  if (!stated) join_restarts(track, name);
+  if (track.unit == WheelUnit::metres) return;
   const std::array<std::pair<Wheel, std::string>, 2> wheels{
       {{&WheelSample::left, "left"}, {&WheelSample::right, "right"}}};
   std::array<std::optional<Range>, 2> ranges;

@@ -16,7 +16,8 @@ enum class CounterProblem { starts_again, begins_again, range_unknown, beyond_ra
 /// signed or not, or of any other number of counts; and angles in [0, 2 pi) or [-pi, pi). A wheel is taken to wrap if all its
 /// values are in such a range and it jumps by more than half of the range at least once; in a range of 8, 12 or 24 bits, or of
 /// no power of two, only if it comes to both ends each time. Such a wheel must move less than half the range between two
-/// samples. Adds a remark for each wheel that wraps. Metres are left as they are.
+/// samples. Adds a remark for each wheel that wraps. Resets to zero are joined (restarts.hpp), also of
+/// travel in metres, which has no range.
 ///
 /// `range`  how many different counts there are, if somebody knows.
 /// Errors   astro::Error with `name` and the time if a jump is neither a wrap nor motion: both ways of reading

@@ -12,6 +12,7 @@
 #include "host/formats/files/bag.hpp"
 #include "host/formats/messages/joint_state.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
+#include "host/import/wheels/mean_of_pairs.hpp"
 #include "host/import/wheels/sample_limit.hpp"
 #include "host/import/wheels/speed_integral.hpp"
 #include "host/import/wheels/stamp_count.hpp"
@@ -35,13 +36,6 @@ void for_each_state(const std::filesystem::path& path, const std::string& topic,
     take(state ? &*state : nullptr, message.log_time_ns);
   };
   report = bag::read_bag(path, handlers);
-}
-
-/// How far a wheel travels in all, forwards and backwards.
-double way_of(const std::vector<WheelSample>& samples, double WheelSample::*wheel) {
-  double way = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i) way += std::abs(samples[i].*wheel - samples[i - 1].*wheel);
-  return way;
 }
 
 class JointWheels {
@@ -163,32 +157,17 @@ class JointWheels {
     return std::move(track.samples);
   }
 
-  /// By how much the wheels of a side differ, in percent of the way of the one that travels farthest.
-  void remark_on_side(const std::string& side, std::vector<double> ways, const std::string& names) {
-    const auto [least, most] = std::ranges::minmax(ways);
-    const std::string percent = fmt::format("{:.2g}", most > 0 ? 100 * (most - least) / most : 0);
-    track_.remarks.push_back(
-        {"the " + side + " wheel is the mean of " + names + ", whose ways differ by " + percent + " %",
-         ChoiceRemark::wheels_of_side_differ,
-         {side, percent}});
-  }
-
   void finish(const bag::BagReport& report) {
     for (const std::string& warning : report.warnings) remark(warning);
-    std::vector<double> left_ways, right_ways;
-    std::string left_names, right_names;
-    const auto share = 1 / static_cast<double>(pairs_.size());
+    std::vector<Wheels> wheels;
+    std::vector<std::string> left, right;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const std::vector<WheelSample> wheels = travel(i);
-      left_ways.push_back(way_of(wheels, &WheelSample::left));
-      right_ways.push_back(way_of(wheels, &WheelSample::right));
-      left_names += (i == 0 ? "" : " and ") + pairs_[i].left;
-      right_names += (i == 0 ? "" : " and ") + pairs_[i].right;
-      if (i == 0) track_.samples.resize(wheels.size());
-      for (std::size_t k = 0; k < wheels.size(); ++k)
-        track_.samples[k] = {wheels[k].time_ns, track_.samples[k].left + share * wheels[k].left,
-                             track_.samples[k].right + share * wheels[k].right};
+      wheels.push_back(travel(i));
+      left.push_back(pairs_[i].left);
+      right.push_back(pairs_[i].right);
     }
+    std::vector<Remark> differences;
+    track_.samples = mean_of_pairs(std::move(wheels), left, right, differences);
     if (without_values_ > 0)
       remark(std::to_string(without_values_) +
              " messages have neither positions nor velocities of the wheels");
@@ -196,9 +175,7 @@ class JointWheels {
     if (track_.samples.size() < 2)
       throw Error(path_.string() + ": " + topic_ + " has fewer than two messages with both wheels (" +
                   track_.joints.left + ", " + track_.joints.right + "): name the right file");
-    if (pairs_.size() == 1) return;
-    remark_on_side("left", left_ways, left_names);
-    remark_on_side("right", right_ways, right_names);
+    track_.remarks.insert(track_.remarks.end(), differences.begin(), differences.end());
   }
 
   const std::filesystem::path& path_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "host/base/error.hpp"
@@ -30,6 +31,13 @@ double long_step(const Samples& samples) {
 }
 
 bool is_zero(const WheelSample& sample) { return sample.left == 0 && sample.right == 0; }
+
+/// Whether a counter or an angle is at the end of its range there, so that it begins again by itself.
+bool is_at_an_end(double value, double near) {
+  for (const double end : {256.0, 4'096.0, 65'536.0, 16'777'216.0, 4'294'967'296.0, 2 * std::numbers::pi})
+    if (std::abs(std::abs(value) - end) <= near) return true;
+  return false;
+}
 
 bool goes_on(const Samples& samples, std::size_t i, double most) {
   return i + 1 >= samples.size() || step_of(samples[i], samples[i + 1]) <= most;
@@ -59,8 +67,10 @@ void join_restarts(WheelTrack& track, const std::string& name) {
   for (std::size_t i = 1; i < samples.size(); ++i) {
     WheelSample& now = samples[i];
     const WheelSample counted = now;
-    const bool begins = std::abs(counted.left) <= kUsual * step && std::abs(counted.right) <= kUsual * step &&
-                        step_of(before, counted) > kFar * step && goes_on(samples, i, kUsual * step);
+    const bool begins =
+        std::abs(counted.left) <= kUsual * step && std::abs(counted.right) <= kUsual * step &&
+        step_of(before, counted) > kFar * step && goes_on(samples, i, kUsual * step) &&
+        !(is_at_an_end(before.left, kUsual * step) || is_at_an_end(before.right, kUsual * step));
     if (begins) {
       const std::string time_s = fmt::format("{:.3f}", 1e-9 * static_cast<double>(now.time_ns));
       const double gap_ns = static_cast<double>(now.time_ns - samples[i - 1].time_ns);

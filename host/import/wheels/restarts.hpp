@@ -10,7 +10,7 @@ namespace astro::importing {
 /// the one interval between, the wheels are taken to move as in those before and after. A first sample of zeros that the next
 /// one is far from is left out, because it was logged before the counters were read. Each is a remark.
 ///
-/// To be called before unwrap (counter_wraps.hpp), for travel that is cumulative. Throws astro::Error
+/// A part of unwrap (counter_wraps.hpp), which is called for all travel that is cumulative. Throws astro::Error
 /// (CounterProblem::begins_again) if samples are missing where they begin again: how far the wheels went is not known.
 void join_restarts(WheelTrack& track, const std::string& name);
 

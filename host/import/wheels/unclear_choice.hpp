@@ -23,14 +23,13 @@ enum class WheelProblem {
 
 /// What a remark reports about a choice. Values: the joints of the left and of the right wheel; the stream of
 /// poses and its type; the name of the source of the wheels (wheel_sources.hpp) and its unit; the topic of
-/// the odometry; the side and by how many percent the travel of its wheels differs.
+/// the odometry.
 enum class ChoiceRemark {
   joints_recognised,
   poses_recognised,
   poses_may_be_estimate,
   wheels_recognised,
-  wheels_from_odometry,
-  wheels_of_side_differ
+  wheels_from_odometry
 };
 
 /// Thrown if a file alone does not show what was meant, or does not contain it; values() lists what there is

@@ -230,11 +230,6 @@ WheelColumns wheel_columns(const std::vector<std::string>& names, tables::Table&
          WheelRemark::counts_assumed,
          {names[out.left.front()]}});
   }
-  if (out.left.size() > 1)
-    out.remarks.push_back(
-        {fmt::format("the robot has {} wheels on each side; their means are taken", out.left.size()),
-         WheelRemark::means_of_sides,
-         {std::to_string(out.left.size())}});
   return out;
 }
 

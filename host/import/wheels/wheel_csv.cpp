@@ -18,7 +18,7 @@
 #include "host/formats/tables/table.hpp"
 #include "host/formats/tables/time_column.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
-#include "host/import/wheels/restarts.hpp"
+#include "host/import/wheels/mean_of_pairs.hpp"
 #include "host/import/wheels/speed_integral.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "host/import/wheels/wheel_columns.hpp"
@@ -101,9 +101,15 @@ class WheelRows {
     while (table_.next()) row();
     if (pairs_.front().size() < 2)
       refuse_line("the table ends with fewer than two rows of wheels", WheelTableProblem::too_few_rows);
-    std::vector<WheelTrack> tracks;
-    for (std::vector<WheelSample>& samples : pairs_) tracks.push_back(track_of(std::move(samples)));
-    WheelTrack track = joined(std::move(tracks));
+    WheelTrack track;
+    track.unit = columns_.unit;
+    for (Wheels& pair : pairs_) {
+      WheelTrack one = track_of(std::move(pair));
+      pair = std::move(one.samples);
+      track.remarks.insert(track.remarks.end(), one.remarks.begin(), one.remarks.end());
+    }
+    track.samples =
+        mean_of_pairs(std::move(pairs_), named(columns_.left), named(columns_.right), track.remarks);
     add_remarks(track.remarks);
     return track;
   }
@@ -150,6 +156,15 @@ class WheelRows {
     return *found;
   }
 
+  /// The names of these columns, or their numbers where the table has no names.
+  std::vector<std::string> named(const std::vector<std::size_t>& columns) const {
+    std::vector<std::string> names;
+    for (const std::size_t at : columns)
+      names.push_back(at < table_.names().size() ? tables::cut_cell(table_.names()[at])
+                                                 : "column " + std::to_string(at + 1));
+    return names;
+  }
+
   double value(std::size_t at) const {
     const auto value = tables::cell_number(table_.cell(at), table_.separator());
     if (!value) refuse_cell(at, "is not a number", WheelTableProblem::not_a_number);
@@ -176,7 +191,7 @@ class WheelRows {
     }
     const auto time_ns = times_.read(table_);
     if (!time_ns) refuse_cell(*columns_.time.at, "is not a time", WheelTableProblem::not_a_time);
-    const std::vector<WheelSample>& first = pairs_.front();
+    const Wheels& first = pairs_.front();
     if (!first.empty() && *time_ns < first.back().time_ns)
       refuse_line("the time is before that of the row above: sort the rows", WheelTableProblem::times_fall);
     const bool repeated = !first.empty() && *time_ns == first.back().time_ns;
@@ -185,7 +200,7 @@ class WheelRows {
       refuse_line("the table has more rows than can be held: split it into one file for each run",
                   WheelTableProblem::too_many_rows);
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      std::vector<WheelSample>& samples = pairs_[i];
+      Wheels& samples = pairs_[i];
       WheelSample sample{*time_ns, value(columns_.left[i]), value(columns_.right[i])};
       if (columns_.per_interval && !samples.empty()) {
         sample.left += samples.back().left;
@@ -206,43 +221,11 @@ class WheelRows {
       return track;
     }
     track.samples = std::move(samples);
-    if (columns_.per_interval) {
+    if (columns_.per_interval)
       refuse_lost_rows(track.samples);
-    } else {
-      join_restarts(track, name_);
+    else
       unwrap(track, name_, given_.counter_range);
-    }
     return track;
-  }
-
-  /// The means of the sides of several pairs of wheels.
-  static WheelTrack joined(std::vector<WheelTrack> tracks) {
-    WheelTrack all = std::move(tracks.front());
-    if (tracks.size() == 1) return all;
-    const double count = static_cast<double>(tracks.size());
-    for (const auto& [wheel, side] :
-         {std::pair{&WheelSample::left, "left"}, std::pair{&WheelSample::right, "right"}}) {
-      const auto travel = [at = wheel](const WheelTrack& track) {
-        return track.samples.back().*at - track.samples.front().*at;
-      };
-      double least = travel(all), most = least;
-      for (std::size_t i = 1; i < tracks.size(); ++i) {
-        least = std::min(least, travel(tracks[i]));
-        most = std::max(most, travel(tracks[i]));
-        for (std::size_t k = 0; k < all.samples.size(); ++k)
-          all.samples[k].*wheel += tracks[i].samples[k].*wheel;
-      }
-      for (WheelSample& sample : all.samples) sample.*wheel /= count;
-      const double whole = std::max(std::abs(least), std::abs(most));
-      const std::string percent = fmt::format("{:.2g}", whole > 0 ? 100 * (most - least) / whole : 0);
-      all.remarks.push_back(
-          {fmt::format("the wheels of the {} side differ by {} % of their travel", side, percent),
-           WheelRemark::sides_differ,
-           {side, percent}});
-    }
-    for (std::size_t i = 1; i < tracks.size(); ++i)
-      all.remarks.insert(all.remarks.end(), tracks[i].remarks.begin(), tracks[i].remarks.end());
-    return all;
   }
 
   void add_remarks(std::vector<Remark>& remarks) const {
@@ -280,7 +263,7 @@ class WheelRows {
   const WheelTable& given_;
   WheelColumns columns_;
   tables::TimeReader times_;
-  std::vector<std::vector<WheelSample>> pairs_;
+  std::vector<Wheels> pairs_;
   std::size_t most_rows_ = 0, incomplete_ = 0, repeated_ = 0;
 };
 

@@ -10,13 +10,11 @@
 /// Travel of any robot's wheels as it was recorded, before any geometry is applied.
 namespace astro::importing {
 
-/// What was inferred about wheels, or is odd about them. Values: the first column (counts_assumed), the wheels on a side
-/// (means_of_sides), the unit (time_unit_assumed), the part of the travel in percent that the sampling leaves uncertain
+/// What was inferred about wheels, or is odd about them. Values: the first column (counts_assumed), the unit (time_unit_assumed), the part of the travel in percent that the sampling leaves uncertain
 /// (speeds_integrated), the side and by how many percent its wheels differ in travel (sides_differ), the side and the
 /// range (continued), the file and the time in seconds (first_left_out, restart_joined).
 enum class WheelRemark {
   counts_assumed,
-  means_of_sides,
   time_unit_assumed,
   speeds_integrated,
   sides_differ,

@@ -267,7 +267,7 @@ TEST_F(BagWheels, FourWheelsAreTheMeansOfTheirSides) {
   const double first = 2 * std::numbers::pi - 6;
   EXPECT_TRUE(travels(track, {{0, 0}, {(first + 0.2) / 2, 0.3}, {(first + 0.2 + 0.3) / 2, 0.6}}));
   EXPECT_EQ(track.joints, (JointPair{"fl", "fr"}));
-  EXPECT_THAT(track.remarks.back(), Tells(ChoiceRemark::wheels_of_side_differ, "right", "50"));
+  EXPECT_THAT(track.remarks.back(), Tells(WheelRemark::sides_differ, "right", "50"));
   selection.further = {{"rl", "fl"}};
   EXPECT_THAT([&] { wheels_in_bag(mcap(sent), selection); },
               ThrowsTelling(WheelProblem::joints_unclear, "fl", "fr", "rl", "rr"));
