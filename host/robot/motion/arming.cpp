@@ -12,13 +12,16 @@ Fault first_fault(std::uint32_t mask) {
 std::optional<Remark> clear_faults_left_behind(Client& client, const std::function<void()>& comes_to_rest,
                                                RetryPolicy patience) {
   constexpr std::uint32_t kLeftBehind = bit(Fault::command_timeout) | bit(Fault::link_lost);
-  const std::uint32_t latched = client.request(protocol::GetFaults{}, patience).latched;
-  if (latched == 0) return std::nullopt;
-  const std::string faults = fault_names(latched);
-  if ((latched & ~kLeftBehind) != 0)
-    throw DriveFault("the robot is not armed because of a latched fault: " + faults,
-                     first_fault(latched & ~kLeftBehind), {faults});
+  const auto left_behind = [&] {
+    const std::uint32_t latched = client.request(protocol::GetFaults{}, patience).latched;
+    if ((latched & ~kLeftBehind) != 0)
+      throw DriveFault("the robot is not armed because of a latched fault: " + fault_names(latched),
+                       first_fault(latched & ~kLeftBehind), {fault_names(latched)});
+    return latched;
+  };
+  if (left_behind() == 0) return std::nullopt;
   comes_to_rest();
+  const std::string faults = fault_names(left_behind());  // another may have come while the robot ramped down
   client.request(protocol::ClearFaults{}, patience);
   return Remark{"cleared " + faults + ", which an earlier drive left behind",
                 DriveProblem::faults_left_behind,

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "host/robot/motion/arming.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
@@ -160,6 +161,13 @@ TEST_F(Drive, DoesNotClearAnyOtherFault) {
   EXPECT_THAT([&] { DriveSession session(client); },
               ThrowsTelling(RobotProblem::faulted, "link_lost, stall"));
   EXPECT_NE(link.robot.latched, 0U);
+}
+
+TEST_F(Drive, DoesNotClearAFaultThatComesWhileTheRobotRampsDown) {
+  link.robot.raise(Fault::command_timeout);
+  EXPECT_THAT([&] { clear_faults_left_behind(client, [&] { link.robot.raise(Fault::stall); }); },
+              ThrowsTelling(RobotProblem::faulted, "command_timeout, stall"));
+  EXPECT_EQ(link.robot.latched, bit(Fault::command_timeout) | bit(Fault::stall));
 }
 
 TEST_F(Drive, AFaultOnTheWayEndsItByName) {
