@@ -84,7 +84,9 @@ void join_restarts(WheelTrack& track, const std::string& name) {
       const WheelSample& next = samples[std::min(i + 1, samples.size() - 1)];
       const auto pace = [&](double WheelSample::*wheel) {
         const double past = i > 1 ? joined.*wheel - samples[i - 2].*wheel : 0;
-        return (past + next.*wheel - counted.*wheel) / 2;
+        const double mean = (past + next.*wheel - counted.*wheel) / 2;
+        const bool whole = past == std::round(past) && counted.*wheel == std::round(counted.*wheel);
+        return whole ? std::round(mean) : mean;  // counts stay whole: their unit is told by that
       };
       offset.left = joined.left + pace(&WheelSample::left) - counted.left;
       offset.right = joined.right + pace(&WheelSample::right) - counted.right;

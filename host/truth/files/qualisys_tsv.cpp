@@ -154,8 +154,9 @@ BodyTrack read_qualisys(std::string_view text, std::string_view file, std::strin
   TrackBuilder builder(track, text);
   std::int64_t row = 0;
   do {
+    if (rows.text().empty()) continue;
     const Cells cells = tables::split_row(rows, '\t');
-    if (!is_row_of_numbers(cells)) continue;  // the names of the columns
+    if (row == 0 && !is_row_of_numbers(cells)) continue;  // the names of the columns
     const Place place = place_of(header, chosen, cells.size(), rows);
     // A single cell before the numbers is a time, and these are rounded.
     const std::int64_t frame = place.frame_cells == 2 ? frames.take(cells.front(), rows) : row;
@@ -163,7 +164,7 @@ BodyTrack read_qualisys(std::string_view text, std::string_view file, std::strin
     TrackedPose sample = pose_at(cells, place.first, header.bodies, rows);
     sample.time_ns = frame_time_ns(frame, header.rate_hz, rows);
     builder.add(sample, rows);
-  } while (rows.next_filled());
+  } while (rows.next());  // a row of nothing but tabs is a frame in which all bodies were lost
   track.facts.dropped_frames = frames.dropped();
   return track;
 }

@@ -137,6 +137,18 @@ TEST(WheelCsv, AResetWhileDrivingIsJoinedAtTheWheelsPace) {
   }
 }
 
+TEST(WheelCsv, CountsStayWholeWhereAResetIsJoined) {
+  // The step over the reset is the mean of 10 before it and 11 behind it.
+  std::string rows = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 80; ++i) {
+    const int counts = i < 40 ? 50'001 + 10 * i : 11 * (i - 40);
+    rows += std::to_string(0.02 * i) + "," + std::to_string(counts) + "," + std::to_string(counts) + "\n";
+  }
+  const WheelTrack track = wheels(rows);
+  EXPECT_THAT(track.remarks, ElementsAre(Tells(WheelRemark::restart_joined, "w.csv", "0.800")));
+  for (const WheelSample& sample : track.samples) EXPECT_EQ(sample.left, std::round(sample.left));
+}
+
 TEST(WheelCsv, AResetAfterWhichSamplesAreMissingIsNoWrapAndIsNotJoined) {
   const std::string rows = "time_s,left_counts,right_counts\n" + paced(40'000, 100, 0, 40);
   EXPECT_THAT(why(rows + paced(0, 0, 100, 40)), Tells(CounterProblem::begins_again, "w.csv", "2.000"));

@@ -342,6 +342,18 @@ TEST(QualisysTsv, MarkersHavePositionsOnly) {
               Tells(TrackProblem::columns_differ, "file", "5", "2", "3"));
 }
 
+TEST(QualisysTsv, ARowOfALostBodyTakesItsFrame) {
+  const std::string head =
+      "NO_OF_FRAMES\t4\nNO_OF_MARKERS\t1\nFREQUENCY\t50\nDATA_INCLUDED\t3D\nMARKER_NAMES\tfront\n"
+      "front X\tfront Y\tfront Z\n";
+  for (const std::string lost : {"NaN\tNaN\tNaN\n", "\t\t\n"}) {
+    const BodyTrack track = read_track(head + "1\t2\t3\n" + lost + "4\t5\t6\n\n", "q.tsv");
+    ASSERT_EQ(track.samples.size(), 3U);
+    EXPECT_FALSE(track.samples[1].valid);
+    EXPECT_EQ(track.samples[2].time_ns, 40'000'000);
+  }
+}
+
 TEST(ViconCsv, SingleMarkersCountWhereThereIsNoBody) {
   const BodyTrack track = read_track(
       "Trajectories\n100\n,,robot:top,,,robot:side,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n"
