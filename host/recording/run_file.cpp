@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/formats/files/mcap_reader.hpp"
 #include "host/formats/messages/ros_messages.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_metadata.hpp"
 #include "host/recording/run_writer.hpp"
 #include "host/recording/sample_messages.hpp"

@@ -10,6 +10,7 @@
 #include "host/base/text/numbers.hpp"
 #include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/compose.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/robust_fit.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/judgement/remarks.hpp"
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
-#include "host/calibration/preparation/preparation.hpp"
+#include "host/calibration/likelihood/likelihood_problem.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
@@ -20,6 +20,7 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
 #include "host/experiment/files/run_set.hpp"
+#include "host/experiment/files/run_set_problem.hpp"
 
 namespace astro::commands {
 namespace {

@@ -18,6 +18,7 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/import/drives/robot_geometry.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/robot/parameters/upload.hpp"
 

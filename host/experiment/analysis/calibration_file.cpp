@@ -10,6 +10,7 @@
 #include "host/base/text/plain_text.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
+#include "host/experiment/analysis/parameter_file_problem.hpp"
 #include "host/experiment/files/toml_file.hpp"
 
 namespace astro::experiment {

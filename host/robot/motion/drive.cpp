@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/base/text/numbers.hpp"
 #include "host/robot/client/restore.hpp"
+#include "host/robot/client/robot_problem.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/motion/other_program.hpp"
-#include "host/robot/motion/paths.hpp"
+#include "host/robot/motion/path_problem.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::robot {
@@ -47,6 +50,9 @@ Fault first_fault(std::uint32_t mask) {
   }
   return Fault::none;
 }
+
+DriveFault::DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values)
+    : Error(sentence, RobotProblem::faulted, std::move(values)), fault_(fault) {}
 
 DriveSession::DriveSession(Client& client, DriveHooks hooks) : client_(client), hooks_(std::move(hooks)) {
   on_done_ = client_.on<SegmentDone>([this](const SegmentDone& done) {

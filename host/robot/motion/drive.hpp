@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/safety/fault.hpp"
@@ -15,19 +14,6 @@
 #include "host/robot/sharing/relay_messages.hpp"
 
 namespace astro::robot {
-
-/// Why a program may not drive a robot, why its drive ended, or why it gets a notice. Values: for segment_aborted the
-/// segment, for ended_early what was done to the robot ("stopped"), for faults_left_behind the faults that were cleared;
-/// then the process id and the command line of the other program, if they are known.
-enum class DriveProblem {
-  stopped_by_another,
-  armed_for_another,
-  driven_by_another,
-  segment_aborted,
-  ended_early,
-  stop_unconfirmed,
-  faults_left_behind
-};
 
 /// Faults that stay latched if a program ends or loses its link while the robot drives. The next program that arms the robot
 /// may clear them; any other fault must be cleared by a person.
@@ -41,8 +27,7 @@ class DriveFault : public Error {
  public:
   DriveFault(const std::string& sentence, Fault fault)
       : DriveFault(sentence, fault, {std::string(name(fault))}) {}
-  DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values)
-      : Error(sentence, RobotProblem::faulted, std::move(values)), fault_(fault) {}
+  DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values);
   Fault fault() const { return fault_; }
 
  private:

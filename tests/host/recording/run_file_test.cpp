@@ -1,4 +1,5 @@
 #include "host/recording/run_file.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/base/text/sense.hpp"
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "host/base/text/numbers.hpp"
 #include "host/formats/files/mcap_reader.hpp"
 #include "host/formats/files/mcap_writer.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_metadata.hpp"
 #include "host/recording/run_writer.hpp"
 #include "tests/host/recording/support.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/base/text/sense.hpp"
 #include "host/report/assets.hpp"
 #include "host/report/html.hpp"

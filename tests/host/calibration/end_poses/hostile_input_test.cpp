@@ -8,6 +8,7 @@
 #include "tests/host/calibration/end_poses/square_runs.hpp"
 
 #include "host/base/text/numbers.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "tests/support/base/remarks.hpp"
 
