@@ -9,6 +9,7 @@ enum class RecordingProblem {
   of_no_run,
   of_newer_version,
   bad_entry,
+  cut_off,
   too_many_samples,
   poses_without_counts,
   time_out_of_range,

@@ -104,7 +104,7 @@ std::string bag_text(const BagInspection& bag) {
                 (bag.wheels ? "; wheels: " + bag.wheels->left + " (left), " + bag.wheels->right + " (right)."
                             : "; which are the wheels, the names do not tell."));
   }
-  for (const std::string& warning : bag.report.warnings) text += wrapped(warning);
+  for (const Remark& warning : bag.report.warnings) text += wrapped(in_words(warning));
   return text;
 }
 
@@ -206,7 +206,7 @@ nlohmann::json bag_json(const BagInspection& bag) {
           {"wheels", wheels},
           {"truncated", bag.report.truncated},
           {"damaged", bag.report.damaged},
-          {"warnings", bag.report.warnings}};
+          {"warnings", facts_of(bag.report.warnings)}};
 }
 
 nlohmann::json tracker_json(const truth::Inspection& tracker) {

@@ -8,9 +8,11 @@
 #include <limits>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
+#include "host/formats/files/bag_damage.hpp"
 #include "host/formats/files/bag_files.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/db3_reader.hpp"
@@ -84,7 +86,7 @@ class BagReader {
   BagReport read(const fs::path& path) {
     const BagFiles files = bag_files(path);
     report_.truncated = !files.warnings.empty();
-    for (const std::string& warning : files.warnings) warn(warning);
+    for (const Remark& warning : files.warnings) warn(warning);
     for (const fs::path& file : files.files) {
       report_.files.push_back(file);
       std::error_code ignored;
@@ -95,8 +97,8 @@ class BagReader {
   }
 
  private:
-  void warn(const std::string& what) {
-    if (report_.warnings.size() < kMostWarnings) report_.warnings.push_back(what);
+  void warn(Remark what) {
+    if (report_.warnings.size() < kMostWarnings) report_.warnings.push_back(std::move(what));
   }
 
   /// A file of the bag, or what was unpacked from it.
@@ -106,6 +108,10 @@ class BagReader {
     std::uint64_t stored_bytes = 0;  // of the bag's own file, to which all limits refer
     bool is_unpacked = false;
   };
+
+  void warn(const Part& part, const char* what, BagDamage kind) {
+    warn({part.name + what, kind, {part.name}});
+  }
 
   void read_file(const Part& part) {
     switch (bag_file_kind(part.file)) {
@@ -189,9 +195,14 @@ class BagReader {
     const McapReport report = read_mcap(source, handlers, limits);
     report_.truncated = report_.truncated || report.truncated;
     report_.damaged = report_.damaged || report.damaged || !expanded || !known;
-    for (const Remark& warning : report.warnings) warn(part.name + ": " + warning.sentence);
-    if (!known) warn(part.name + ": more topics than this reader takes");
-    if (!expanded) warn(part.name + ": a compressed message that does not expand");
+    for (const Remark& warning : report.warnings) {
+      Remark of_part = warning.in(part.name + ": ");
+      of_part.values.insert(of_part.values.begin(), part.name);
+      warn(std::move(of_part));
+    }
+    if (!known) warn(part, ": more topics than this reader takes", BagDamage::too_many_topics);
+    if (!expanded)
+      warn(part, ": a compressed message that does not expand", BagDamage::message_does_not_expand);
   }
 
   void read_packed(const Part& part) {
@@ -206,12 +217,14 @@ class BagReader {
             throw Error("cannot write " + unpacked.string() + ": check its permissions and the disk");
         });
     out.close();
-    if (expansion != Expansion::whole) {
+    if (expansion != Expansion::whole)
       (expansion == Expansion::cut ? report_.truncated : report_.damaged) = true;
-      warn(part.name + (expansion == Expansion::cut         ? " ends inside its compressed data"
-                        : expansion == Expansion::too_large ? " expands to more than 256 times its size"
-                                                            : " has damaged compressed data"));
-    }
+    if (expansion == Expansion::cut)
+      warn(part, " ends inside its compressed data", BagDamage::packed_cut_off);
+    if (expansion == Expansion::too_large)
+      warn(part, " expands to more than 256 times its size", BagDamage::packed_too_large);
+    if (expansion == Expansion::damaged)
+      warn(part, " has damaged compressed data", BagDamage::packed_damaged);
     read_file({unpacked, part.name, part.stored_bytes, true});
   }
 

@@ -11,6 +11,7 @@
 #include "host/base/files.hpp"
 #include "host/base/text/natural_order.hpp"
 #include "host/formats/files/bag.hpp"
+#include "host/formats/files/bag_damage.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/mcap_records.hpp"
 #include "host/formats/files/yaml_scalars.hpp"
@@ -69,7 +70,9 @@ BagFiles named_in(const fs::path& metadata, const fs::path& folder) {
     if (!file.empty()) {
       out.files.push_back(file);
     } else if (out.warnings.size() < kMostMissing) {
-      out.warnings.push_back(metadata.string() + " names " + name.string() + ", which is not there");
+      out.warnings.push_back({metadata.string() + " names " + name.string() + ", which is not there",
+                              BagDamage::file_not_there,
+                              {metadata.string(), name.string()}});
     }
   }
   return out;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/base/bytes.hpp"
+#include "host/base/error.hpp"
 
 namespace astro::bag {
 
@@ -15,7 +16,7 @@ BagFileKind bag_file_kind(const std::filesystem::path& path);
 
 struct BagFiles {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> warnings;  // of files that metadata.yaml names and that are not there
+  std::vector<Remark> warnings;  // of files that metadata.yaml names and that are not there
 };
 
 /// The files of a bag in the order of their messages. For a folder they are those that its metadata.yaml names, otherwise all

@@ -141,7 +141,7 @@ class JointWheels {
   }
 
   void finish(const bag::BagReport& report) {
-    for (const std::string& warning : report.warnings) remark(warning);
+    track_.remarks.insert(track_.remarks.end(), report.warnings.begin(), report.warnings.end());
     if (track_.samples.empty() && !velocities_.empty()) {
       integrate();
     } else {

@@ -107,7 +107,7 @@ TEST(Report, EscapesEveryTextOfItsInput) {
     for (auto& run : phase.runs) {
       run.info.kind = run.info.robot_name = run.info.robot_id = run.info.board = run.info.firmware = evil;
       run.info.started_at = run.info.truth_source = run.info.truth_clock = evil;
-      run.warning = evil;
+      run.warning = Remark{evil};
       run.info.parameters = {{evil, 1.0}};
     }
   }

@@ -219,7 +219,7 @@ TEST_F(OnePort, ADriveRecordsItself) {
   Program program = drive({"line", "0.5", "--speed", "0.3", "--record", file});
   EXPECT_EQ(program.wait(), 0) << program.err();
   const recording::Run run = recording::read_run(file);
-  EXPECT_EQ(run.warning, "");
+  EXPECT_FALSE(run.warning);
   EXPECT_NEAR(run.odometry.back().x_m - run.odometry.front().x_m, 0.5, 0.005);
   EXPECT_NE(run.odometry.back().left_counts, run.odometry.front().left_counts);
   EXPECT_GT(run.info.parameters.at("b"), 0.1);
@@ -235,7 +235,7 @@ TEST_F(OnePort, ARecordedDriveThatIsInterruptedKeepsWhatItRecorded) {
   program.send(SIGINT);
   EXPECT_EQ(program.wait(), 130);
   const recording::Run run = recording::read_run(file);
-  EXPECT_EQ(run.warning, "");
+  EXPECT_FALSE(run.warning);
   EXPECT_GT(run.odometry.back().x_m - run.odometry.front().x_m, 0.2);
 }
 
