@@ -154,7 +154,8 @@ class JointWheels {
     if (track_.clock == WheelClock::stamp) stamps_.remark("messages of " + topic_, track_.remarks);
     if (track_.samples.size() < 2)
       throw Error(path_.string() + ": " + topic_ + " has fewer than two messages with both wheels (" +
-                  joints_.left + ", " + joints_.right + "): name the right file");
+                      joints_.left + ", " + joints_.right + "): name the right file",
+                  JointProblem::too_few_messages, {path_.string(), topic_, joints_.left, joints_.right});
   }
 
   const std::filesystem::path& path_;

@@ -8,6 +8,9 @@
 
 namespace astro::importing {
 
+/// What is wrong with the messages of joints in a bag. Values: the bag, the topic, and both joints.
+enum class JointProblem { too_few_messages };
+
 /// What is not given is recognised: the topic if only one has that type, and the wheels by their names.
 struct JointSelection {
   std::string topic;

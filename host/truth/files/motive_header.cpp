@@ -16,9 +16,11 @@ std::string_view at_or_empty(const HeaderCells& cells, std::size_t index) {
 }
 
 [[noreturn]] void refuse_without_header(const Rows& rows) {
-  throw Error("'" + std::string(rows.file()) +
-              "' has no header of Motive with a row that begins with Frame, so its columns have no meaning: "
-              "export the recording again with its header");
+  throw Error(
+      "'" + std::string(rows.file()) +
+          "' has no header of Motive with a row that begins with Frame, so its columns have no meaning: "
+          "export the recording again with its header",
+      TrackProblem::no_header, {std::string(rows.file())});
 }
 
 void read_values(const HeaderCells& cells, MotiveHeader& out) {
@@ -114,7 +116,9 @@ double MotiveHeader::number(std::string_view key) const {
 }
 
 MotiveHeader read_motive_header(Rows& rows) {
-  if (!rows.next_filled()) throw Error("'" + std::string(rows.file()) + "' is empty");
+  if (!rows.next_filled())
+    throw Error("'" + std::string(rows.file()) + "' is empty", TrackProblem::empty,
+                {std::string(rows.file())});
   MotiveHeader out;
   out.dialect = dialect_of(rows.text());
   const HeaderCells first = split_header(rows, out.dialect.separator);

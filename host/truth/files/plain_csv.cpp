@@ -175,7 +175,9 @@ std::vector<BodyName> names_of(const std::vector<PlainHeader>& headers) {
 
 /// The headers of a table; refused if no body is complete.
 std::vector<PlainHeader> required_headers(Rows& rows) {
-  if (!rows.next_filled()) throw Error("'" + std::string(rows.file()) + "' is empty");
+  if (!rows.next_filled())
+    throw Error("'" + std::string(rows.file()) + "' is empty", TrackProblem::empty,
+                {std::string(rows.file())});
   std::vector<PlainHeader> headers = plain_headers(rows);
   if (headers.empty())
     rows.refuse("columns for the time and for x and y are needed, such as time_s, x_m and y_m");

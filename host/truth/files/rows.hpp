@@ -11,11 +11,16 @@
 /// Rows and cells of large tables, without a copy of any of them.
 namespace astro::truth {
 
-/// What is wrong with a recording. Values: the file; then, except for the first two, the line, the column if
-/// it is known, and the text there. For units_differ the unit of the columns before comes first.
+/// What is wrong with a recording. Values: the file; then, except for those up to no_pose, the line, the column if it is known,
+/// and the text there. For units_differ the unit of the columns before comes first.
 enum class TrackProblem {
+  empty,
+  unknown_form,
+  older_motive,
   no_header,
+  no_body,
   no_rigid_body,
+  no_pose,
   length_unit_unknown,
   angle_unit_unknown,
   unit_of_other_quantity,

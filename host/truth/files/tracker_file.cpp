@@ -27,8 +27,9 @@ bool is_vicon_start(Rows rows) {
   const std::string name = "'" + std::string(file) + "'";
   if (kind == FileKind::motive_rows)
     throw Error(name +
-                " is an export of Motive before version 1.7, whose form is not read: open the take in a "
-                "newer version of Motive and export it again");
+                    " is an export of Motive before version 1.7, whose form is not read: open the take in a "
+                    "newer version of Motive and export it again",
+                TrackProblem::older_motive, {std::string(file)});
   Rows rows(text, file);
   if (rows.next_filled() && cell_number(first_cell(rows.text()), false))
     throw Error(
@@ -38,8 +39,9 @@ bool is_vicon_start(Rows rows) {
         TrackProblem::no_header, {std::string(file)});
   throw Error(
       name +
-      " is none of the recordings that can be read: Motive CSV, Vicon CSV, TUM, EuRoC, or CSV with the "
-      "columns time_s, x_m, y_m");
+          " is none of the recordings that can be read: Motive CSV, Vicon CSV, TUM, EuRoC, or CSV with the "
+          "columns time_s, x_m, y_m",
+      TrackProblem::unknown_form, {std::string(file)});
 }
 
 }  // namespace

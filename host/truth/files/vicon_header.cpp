@@ -135,7 +135,8 @@ std::vector<ViconBody> find_vicon_bodies(std::string_view text, std::string_view
     }
   }
   if (bodies.empty())
-    throw Error("'" + std::string(file) + "' holds no body in a section Objects or Segments");
+    throw Error("'" + std::string(file) + "' holds no body in a section Objects or Segments",
+                TrackProblem::no_body, {std::string(file)});
   return bodies;
 }
 
