@@ -74,6 +74,9 @@ constexpr Advice kCalibrateRunsAdvice[] = {
     {experiment::AnalysisProblem::run_without_truth,
      ": leave it out with 'astrolabe calibrate runs --without {0}', or use --method robust, extended or "
      "umbmark"},
+    {experiment::AnalysisProblem::no_truth,
+     ": drive again with 'astrolabe umbmark' or 'astrolabe record --truth SOURCE', or give a film of the "
+     "drives with --truth film:FILE"},
     {experiment::RunSetProblem::same_recording, ": leave one out with --without {0}"},
     {calibration::JudgementProblem::run_stands_out,
      "; look there, and if it was an accident leave the run out (of a folder: 'astrolabe calibrate runs "

@@ -106,6 +106,9 @@ constexpr Advice kImportAdvice[] = {
      "up"},
     {importing::ImportProblem::turns_against_stated_up,
      ": give --swap-wheels if left and right are exchanged, or another axis to --up"},
+    {importing::ImportProblem::turns_against_exchanged,
+     ": leave out --swap-wheels if left and right are not exchanged, or give --up with the axis of the "
+     "tracker that points up"},
     {importing::WheelProblem::columns_unclear,
      ": describe the columns with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
      "..._m; - for one that is not used)"},

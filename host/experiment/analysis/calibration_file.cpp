@@ -189,7 +189,9 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
   }
   std::ostringstream text;
   text << toml::table{{"parameters", parameters}} << '\n';
-  save(path, "The parameters of a robot, exported by Astrolabe.", text.str());
+  save(path,
+       "The values in force in a robot, exported by Astrolabe. Values that were only tried are among them.",
+       text.str());
 }
 
 void write_parameter_file(const fs::path& path, const ParameterFile& file) {

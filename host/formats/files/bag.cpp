@@ -125,8 +125,7 @@ class BagReader {
       case BagFileKind::none:
         break;
     }
-    throw Error(part.name + " is not a bag: it begins like no .db3, .mcap or .zstd file: name the right file",
-                BagProblem::not_a_bag, {part.name});
+    refuse_as_bag(part.name);
   }
 
   void read_database(const Part& part) {

@@ -14,6 +14,12 @@ enum class BagFileKind : std::uint8_t { none, database, mcap, zstd };
 /// What a file is by its first bytes; `none` also if it cannot be read.
 BagFileKind bag_file_kind(const std::filesystem::path& path);
 
+/// Throws the astro::Error for the file `name`, which begins like no part of a bag.
+[[noreturn]] void refuse_as_bag(const std::string& name);
+
+/// Refuses a file that has the extension of a part of a bag and begins like none, so that nobody takes it for a text.
+void require_bag_content(const std::filesystem::path& path);
+
 struct BagFiles {
   std::vector<std::filesystem::path> files;
   std::vector<Remark> warnings;  // of files that metadata.yaml names and that are not there

@@ -20,6 +20,8 @@ namespace astro::importing {
 ///   turns_against_wheels     the drive, and by how many metres the body is above the tracker's origin if it
 ///                            clearly is
 ///   turns_against_stated_up  the drive
+///   turns_against_exchanged  the drive, if its wheels were exchanged because a person said that they are in the file; also
+///                            in place of below_origin
 enum class ImportProblem {
   size_not_above_zero,
   sizes_not_described,
@@ -33,7 +35,8 @@ enum class ImportProblem {
   leaps,
   below_origin,
   turns_against_wheels,
-  turns_against_stated_up
+  turns_against_stated_up,
+  turns_against_exchanged
 };
 
 /// The wheels of any robot as its own program describes them: nominal sizes, and the factors by which its

@@ -4,6 +4,7 @@
 
 #include "host/base/byte_source.hpp"
 #include "host/base/files.hpp"
+#include "host/formats/files/bag_files.hpp"
 #include "host/truth/files/packed_text.hpp"
 
 namespace astro::importing {
@@ -21,6 +22,7 @@ bool is_packed_text(const fs::path& path) {
 }
 
 Bytes text_of_file(const fs::path& path) {
+  bag::require_bag_content(path);
   if (!is_packed_text(path)) return load_text(path);
   FileSource file(path);
   return truth::unpacked(file, path.string());

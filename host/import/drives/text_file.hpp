@@ -10,7 +10,7 @@ namespace astro::importing {
 bool is_packed_text(const std::filesystem::path& path);
 
 /// The whole text of a file, decompressed if necessary. Throws astro::Error naming the file if it cannot be
-/// read, or if the compressed text is damaged or would take too much memory
+/// read, if it should be part of a bag by its name, or if the compressed text is damaged or would take too much memory
 /// (host/truth/files/packed_text.hpp).
 Bytes text_of_file(const std::filesystem::path& path);
 

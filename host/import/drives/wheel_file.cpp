@@ -57,6 +57,7 @@ bool is_own_recording(const fs::path& path) {
 }
 
 WheelTrack read_wheel_table(const fs::path& path, const WheelTable& table) {
+  bag::require_bag_content(path);
   if (!is_packed_text(path)) {
     FileSource file(path);
     return wheels_in_table(file, path.string(), table);

@@ -138,6 +138,8 @@ TEST_F(CalibrationFile, KeepsTextAndNumbersOfAnExport) {
   const std::filesystem::path path = folder_.path() / "robot.toml";
   write_parameters(path, values);
   EXPECT_EQ(read_parameter_file(path).parameters, values);
+  std::ifstream file(path);
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(file), {}), HasSubstr("only tried"));
 }
 
 TEST_F(CalibrationFile, NamesTheFileThatIsNotThere) {

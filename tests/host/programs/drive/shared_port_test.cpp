@@ -85,9 +85,10 @@ TEST_F(OnePort, EverythingThatOnlyLooksWorksBesideADrive) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.code, 0) << words.front() << ": " << outcome.err;
   }
+  EXPECT_THAT(run({"resume"}).err, HasSubstr("was not paused"));
   EXPECT_EQ(run({"pause"}).code, 0);
   EXPECT_TRUE(eventually([&] { return info()["mode"] == "paused"; }));
-  EXPECT_EQ(run({"resume"}).code, 0);
+  EXPECT_THAT(run({"resume"}).err, HasSubstr("the robot goes on"));
   EXPECT_TRUE(has_gone(0.1));
   EXPECT_TRUE(program.running()) << program.err();
 }
