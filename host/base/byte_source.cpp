@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/base/file_problem.hpp"
 #include "host/base/files.hpp"
 #include "host/base/system_error.hpp"
 

@@ -14,6 +14,7 @@
 
 #include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/base/system_error.hpp"
 
 namespace astro {

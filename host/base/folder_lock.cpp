@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/base/system_error.hpp"
 
 namespace astro {

@@ -7,37 +7,43 @@
 namespace astro::recording {
 namespace {
 
-Rest required(const std::optional<Rest>& rest, const Run& run, const std::string& end) {
-  if (!rest) {
-    throw Error(
-        run_name(run.info) + " does not stand still for 0.2 s at its " + end + ": record a standstill there",
-        EndProblem::no_rest, {run_name(run.info), end});
-  }
-  if (!rest->truth) {
-    throw Error(run_name(run.info) + " has no valid ground truth while it stands at its " + end +
-                    ": check that the tracker sees the robot there",
-                EndProblem::no_truth, {run_name(run.info), end});
-  }
+/// A run, as sentences and values of errors name it.
+struct Named {
+  std::string subject, value;
+};
+
+[[noreturn]] void refuse(const Named& run, const std::string& fact, EndProblem problem,
+                         const std::vector<std::string>& more = {}) {
+  std::vector<std::string> values{run.value};
+  values.insert(values.end(), more.begin(), more.end());
+  throw Error(run.subject + fact, problem, values);
+}
+
+Rest required(const std::optional<Rest>& rest, const Named& run, const std::string& end) {
+  if (!rest)
+    refuse(run, " does not stand still for 0.2 s at its " + end + ": record a standstill there",
+           EndProblem::no_rest, {end});
+  if (!rest->truth)
+    refuse(run,
+           " has no valid ground truth while it stands at its " + end +
+               ": check that the tracker sees the robot there",
+           EndProblem::no_truth, {end});
   return *rest;
 }
 
 }  // namespace
 
-RunEnds ends_of(const Run& run) {
-  if (run.odometry.empty())
-    throw Error(run_name(run.info) + " holds no odometry: record it again", EndProblem::no_odometry,
-                {run_name(run.info)});
-  const Rest start = required(rest_at_start(run), run, "start");
-  const Rest end = required(rest_at_end(run), run, "end");
-  if (start.to_us >= end.from_us) {
-    throw Error(run_name(run.info) + " never moves: its wheel counts stay the same from start to end",
-                EndProblem::never_moves, {run_name(run.info)});
-  }
-  if (!std::isfinite(start.truth->theta_rad)) {
-    throw Error(run_name(run.info) +
-                    " has no heading of ground truth at its start: without it the end cannot be placed",
-                EndProblem::no_heading, {run_name(run.info)});
-  }
+RunEnds ends_of(const Run& run, const std::string& file) {
+  const Named named =
+      file.empty() ? Named{run_name(run.info), run_name(run.info)} : Named{"'" + file + "'", file};
+  if (run.odometry.empty()) refuse(named, " holds no odometry: record it again", EndProblem::no_odometry);
+  const Rest start = required(rest_at_start(run), named, "start");
+  const Rest end = required(rest_at_end(run), named, "end");
+  if (start.to_us >= end.from_us)
+    refuse(named, " never moves: its wheel counts stay the same from start to end", EndProblem::never_moves);
+  if (!std::isfinite(start.truth->theta_rad))
+    refuse(named, " has no heading of ground truth at its start: without it the end cannot be placed",
+           EndProblem::no_heading);
   return {start.truth->between(*end.truth), start.odometry.between(end.odometry)};
 }
 

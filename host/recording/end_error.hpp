@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "host/base/pose2.hpp"
 #include "host/recording/run.hpp"
 
@@ -16,8 +18,9 @@ struct RunEnds {
 
 /// Start and end are means over the rests of the robot (rest.hpp), so that the noise of the tracker averages
 /// out; truth may be in any frame. Throws astro::Error naming the run if it has no odometry, never moves, is
-/// not at rest at an end, or has no valid truth there (at the start a heading is needed, too).
-RunEnds ends_of(const Run& run);
+/// not at rest at an end, or has no valid truth there (at the start a heading is needed, too). `file`: how the user calls
+/// the recording; "" if that is not known.
+RunEnds ends_of(const Run& run, const std::string& file = "");
 
 /// True end minus end by odometry, by coordinate; theta in [-pi, pi], NaN if truth has no heading at the end. The
 /// input of UMBmark. Throws as ends_of does.

@@ -6,7 +6,7 @@
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
 #include "host/formats/messages/ros_messages.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/recording/recording_problem.hpp"
 
 namespace astro::recording {
 

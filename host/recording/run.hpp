@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/error.hpp"
 #include "host/base/text/sense.hpp"
 
 /// One drive as it was recorded: odometry and ground truth.
@@ -53,8 +54,9 @@ struct Run {
   RunInfo info;
   std::vector<OdometrySample> odometry;
   std::vector<TruthSample> truth;
-  std::string
-      warning;  // "" or one sentence about what the file had lost, e.g. because the recorder was cut off
+  /// What the file has lost. Its first value is the file; its kind is RecordingProblem::cut_off or, for a damaged file that was
+  /// accepted, that of DamagedRecording.
+  std::optional<Remark> warning = {};
 };
 
 }  // namespace astro::recording

@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/formats/files/mcap_reader.hpp"
 #include "host/formats/messages/ros_messages.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_metadata.hpp"
 #include "host/recording/run_writer.hpp"
 #include "host/recording/sample_messages.hpp"
@@ -57,30 +58,34 @@ struct Streams {
 struct RunFile {
   RunRecord record;
   Streams streams;
-  std::string warning;
+  std::optional<Remark> warning;
 };
 
-/// The warning for a file that is not complete; "" if it is.
-std::string warning_of(const std::string& file, const bag::McapReport& report, Damage damage) {
+/// The warning for a file that is not complete.
+std::optional<Remark> warning_of(const std::string& file, const bag::McapReport& report, Damage damage) {
   if (!report.is_mcap)
     throw Error(file + " is not an MCAP file: name a recording made by Astrolabe", RecordingProblem::not_mcap,
                 {file});
   const Remark first = report.warnings.empty() ? Remark{} : report.warnings.front();
   const std::string damaged = file + " is damaged (" + first.sentence + ")";
-  if (report.damaged && damage == Damage::refused) {
-    std::vector<std::string> values{file};
-    values.insert(values.end(), first.values.begin(), first.values.end());
+  std::vector<std::string> values{file};
+  values.insert(values.end(), first.values.begin(), first.values.end());
+  if (report.damaged && damage == Damage::refused)
     throw DamagedRecording(damaged + ": copy it again from where it was recorded, or record the run again",
                            first.kind, values);
-  }
-  if (report.damaged) return damaged + ": some of the run is missing, and results from it may be wrong";
-  if (report.truncated) return file + " was cut off while it was recorded: what was driven last is missing";
-  return "";
+  if (report.damaged)
+    return Remark{damaged + ": some of the run is missing, and results from it may be wrong", first.kind,
+                  values};
+  if (report.truncated)
+    return Remark{file + " was cut off while it was recorded: what was driven last is missing",
+                  RecordingProblem::cut_off,
+                  {file}};
+  return std::nullopt;
 }
 
 /// Reads the file; `handlers` has no handler of metadata yet. Returns its run record.
 RunRecord record_in(ByteSource& source, const std::string& file, Damage damage, bag::McapHandlers handlers,
-                    std::string& warning) {
+                    std::optional<Remark>& warning) {
   std::optional<bag::mcap::Map> entries;
   // The last record counts: the first is written before the run, the last after it.
   handlers.metadata = [&](const bag::mcap::Metadata& metadata) {
@@ -158,8 +163,8 @@ void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad)
 
 Run run_in(ByteSource& source, const std::string& name, Damage damage) {
   RunFile file = parse(source, name, damage);
-  if (damage == Damage::accepted && !file.warning.empty()) drop_singles(file.streams);
-  pair_counts(name, !file.warning.empty(), file.streams);
+  if (damage == Damage::accepted && file.warning) drop_singles(file.streams);
+  pair_counts(name, file.warning.has_value(), file.streams);
   unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
   unwrap(file.streams.truth, file.record.first_truth_heading_rad);
   file.streams.counts = {};
@@ -192,7 +197,7 @@ Run read_run(const std::filesystem::path& path, Damage damage) {
 
 RunInfo read_run_info(const std::filesystem::path& path) {
   FileSource source(path);
-  std::string warning;
+  std::optional<Remark> warning;
   return record_in(source, path.string(), Damage::accepted, {}, warning).info;
 }
 

@@ -14,22 +14,6 @@
 ///             sample comes back as NaN. `warning` is not stored.
 namespace astro::recording {
 
-/// Why a file or a folder is no recording. Values: the file or the folder; then what the system says
-/// (folder_unreadable), the entry's key (bad_entry), or the time in microseconds (time_out_of_range).
-enum class RecordingProblem {
-  not_mcap,
-  of_no_run,
-  of_newer_version,
-  bad_entry,
-  too_many_samples,
-  poses_without_counts,
-  time_out_of_range,
-  none_in_folder,
-  folder_missing,
-  folder_is_file,
-  folder_unreadable
-};
-
 /// Writes a run; the file appears complete or not at all. Throws astro::Error naming the file.
 void write_run(const std::filesystem::path& path, const Run& run);
 

@@ -4,6 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/natural_order.hpp"
+#include "host/recording/recording_problem.hpp"
 
 namespace astro::recording {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/base/text/sense.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/recording/recording_problem.hpp"
 
 namespace astro::recording {
 namespace {

@@ -35,16 +35,17 @@ std::string answers(const Phase& phase, const Fact& fact) {
 }
 
 std::vector<Fact> facts_of(const ReportInput& input) {
-  std::vector<Fact> facts{{"Robot", [](const Run& run) { return run.info.robot_name; }},
-                          {"Robot id", [](const Run& run) { return run.info.robot_id; }},
-                          {"Board", [](const Run& run) { return run.info.board; }},
-                          {"Firmware", [](const Run& run) { return run.info.firmware; }},
-                          {"Ground truth", [](const Run& run) { return run.info.truth_source; }},
-                          {"Clock of the ground truth", [](const Run& run) { return run.info.truth_clock; }},
-                          {"Warnings", [](const Run& run) { return run.warning; }},
-                          {"Speed", [](const Run& run) {
-                             return run.info.speed_mps > 0 ? fmt::format("{:g} m/s", run.info.speed_mps) : "";
-                           }}};
+  std::vector<Fact> facts{
+      {"Robot", [](const Run& run) { return run.info.robot_name; }},
+      {"Robot id", [](const Run& run) { return run.info.robot_id; }},
+      {"Board", [](const Run& run) { return run.info.board; }},
+      {"Firmware", [](const Run& run) { return run.info.firmware; }},
+      {"Ground truth", [](const Run& run) { return run.info.truth_source; }},
+      {"Clock of the ground truth", [](const Run& run) { return run.info.truth_clock; }},
+      {"Warnings", [](const Run& run) { return run.warning ? run.warning->sentence : ""; }},
+      {"Speed", [](const Run& run) {
+         return run.info.speed_mps > 0 ? fmt::format("{:g} m/s", run.info.speed_mps) : "";
+       }}};
   for (const auto& p : input.parameters) {
     facts.push_back({"Loaded " + p.name, [name = p.name](const Run& run) {
                        const auto found = run.info.parameters.find(name);

@@ -33,7 +33,7 @@ void take(ByteView input) {
     for (const CsvRow& row : table.rows)
       require(row.cells.size() == table.header.cells.size(), "all rows are as wide as the header");
   });
-  reading([&] { require(!calibration::read_end_poses(text, "x.csv").empty(), "a table has rows"); });
+  reading([&] { require(!calibration::read_end_poses(text, "x.csv").poses.empty(), "a table has rows"); });
   static const recording::Run run = standing_for_three_seconds();
   static const InputFile file(truth::truth_file_name(run.info));
   file.holding(input);

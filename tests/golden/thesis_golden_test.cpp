@@ -55,7 +55,7 @@ std::optional<std::vector<EndPose>> load(std::size_t i, bool from_file) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  return calibration::read_end_poses(text, path);
+  return calibration::read_end_poses(text, path).poses;
 }
 
 struct VariantCase {

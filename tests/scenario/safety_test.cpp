@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "host/base/error.hpp"
+#include "host/base/text/number_problem.hpp"
 
 namespace astro {
 namespace {

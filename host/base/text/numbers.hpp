@@ -26,10 +26,6 @@ std::optional<double> number_in(std::string_view text);
 std::optional<int> integer_in(std::string_view text);
 std::optional<std::uint64_t> unsigned_in(std::string_view text);
 
-/// Why text in a file is not the number that is needed. Values: its name and at most 40 characters of its
-/// text.
-enum class NumberProblem { not_a_count };
-
 /// Reads a count from the text of a file. Throws astro::Error, which shows the name and the text, for anything but a whole
 /// number from 0 to the greatest int, because a plain conversion turns 1e300 and 2^32 + 5 into other numbers.
 int count_in(std::string_view text, std::string_view name);

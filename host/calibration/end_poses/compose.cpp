@@ -4,7 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 
 namespace astro::calibration {
 

@@ -8,6 +8,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/sense.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 
 namespace astro::calibration {
 namespace {

@@ -8,25 +8,6 @@
 /// End-pose errors of closed runs, the raw material of UMBmark.
 namespace astro::calibration {
 
-/// Why end poses give no factors. Values: the direction, if it has a name (no_run, one_direction_only,
-/// no_headings); the run (not_finite, no_heading, heading_beyond_half_a_turn, the last with the heading in
-/// radians); the numbers (all that are bad or implausible).
-enum class EndPoseProblem {
-  no_runs,
-  no_run,
-  one_direction_only,
-  not_finite,
-  no_headings,
-  no_heading,
-  heading_beyond_half_a_turn,
-  bad_side,
-  bad_wheelbase,
-  bad_wheel_factors,
-  no_ratios_fit,
-  implausible_ratios,
-  implausible_scale
-};
-
 /// Error of one run at its end: absolute (ground truth) - odometry, in the run's start frame:
 /// x forward, y left, theta counter-clockwise. theta is NaN where no heading was measured.
 using EndPose = Pose2;

@@ -5,14 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 
 #include "host/base/error.hpp"
 #include "host/base/text/csv_table.hpp"
 #include "host/base/text/degrees.hpp"
-#include "host/base/text/sense.hpp"
 
 namespace astro::calibration {
 namespace {
@@ -168,10 +166,10 @@ Sense sense_of(const CsvRow& row, std::size_t direction, std::string_view name) 
 
 }  // namespace
 
-std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name) {
+EndPoseTable read_end_poses(std::string_view text, std::string_view name, std::optional<Sense> sense) {
   const CsvTable table = split_csv(text, name);
   const Columns columns = find_columns(table, name);
-  std::vector<EndPose> out;
+  EndPoseTable out;
   for (const CsvRow& row : table.rows) {
     const auto direction = columns.direction;
     if (direction && sense_of(row, *direction, name) != sense_of(table.rows[0], *direction, name)) {
@@ -179,7 +177,13 @@ std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name
              "column direction: the file mixes cw and ccw runs where one direction is wanted: split it",
              EndPoseTableProblem::both_directions);
     }
-    out.push_back(pose(row, columns, name));
+    if (direction && sense && sense_of(row, *direction, name) != *sense)
+      refuse(name, row.line,
+             "column direction: \"" + row.cells[*direction] + "\", and this is the table of the " +
+                 in_words(*sense) + " runs: exchange the two tables, or correct the direction",
+             EndPoseTableProblem::other_direction, {row.cells[*direction]});
+    out.poses.push_back(pose(row, columns, name));
+    out.lines.push_back(row.line);
   }
   return out;
 }

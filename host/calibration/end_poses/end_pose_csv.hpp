@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
 
 /// End poses from comma separated text that a spreadsheet or a person wrote.
@@ -26,7 +28,7 @@ namespace astro::calibration {
 
 /// Why a table gives no end poses, in addition to CsvProblem. Values: its name; the line, except for no_rows;
 /// then the quantity, "ex" (no_column), the column's title (no_unit), both titles (two_columns), the cell
-/// (no_direction), or the column's title and the cell's text (empty_cell, not_a_number, not_finite).
+/// (no_direction, other_direction), or the column's title and the cell's text (empty_cell, not_a_number, not_finite).
 enum class EndPoseTableProblem {
   no_rows,
   no_column,
@@ -36,10 +38,16 @@ enum class EndPoseTableProblem {
   not_a_number,
   not_finite,
   no_direction,
-  both_directions
+  both_directions,
+  other_direction
 };
 
-/// The rows in file order. Refuses a file whose `direction` column mixes both directions.
-std::vector<EndPose> read_end_poses(std::string_view text, std::string_view name);
+struct EndPoseTable {
+  std::vector<EndPose> poses;  // in file order
+  std::vector<int> lines;      // of each, from 1
+};
+
+/// Refuses a file whose `direction` column mixes both directions, or has another one than `sense`.
+EndPoseTable read_end_poses(std::string_view text, std::string_view name, std::optional<Sense> sense = {});
 
 }  // namespace astro::calibration

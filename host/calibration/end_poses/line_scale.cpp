@@ -7,7 +7,7 @@
 #include "host/base/order_statistics.hpp"
 #include "host/base/pose2.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/end_poses/robust_weight.hpp"
 
 namespace astro::calibration {

@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/base/order_statistics.hpp"
 #include "host/calibration/end_poses/compose.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/end_poses/end_scatter.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/robust_weight.hpp"

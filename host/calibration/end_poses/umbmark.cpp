@@ -10,6 +10,7 @@
 #include "host/base/text/numbers.hpp"
 #include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/compose.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/end_poses/robust_fit.hpp"
 
@@ -160,19 +161,20 @@ void require_headings(std::span<const EndPose> runs, const std::string& directio
   const auto lacks = [](const EndPose& run) { return std::isnan(run.theta_rad); };
   const bool none = std::all_of(runs.begin(), runs.end(), lacks);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::string run = direction + " run " + std::to_string(i + 1);
+    const std::string number = std::to_string(i + 1), run = direction + " run " + number;
     if (lacks(runs[i])) {
       throw Error(
           (none ? "the " + direction + " runs have" : run + " has") +
               " no heading error, which the extended method calibrates from: measure the end headings "
               "(etheta_rad or etheta_deg), or use the method umbmark",
-          none ? EndPoseProblem::no_headings : EndPoseProblem::no_heading, {none ? direction : run});
+          none ? EndPoseProblem::no_headings : EndPoseProblem::no_heading,
+          none ? std::vector{direction} : std::vector{direction, number});
     }
     if (std::abs(runs[i].theta_rad) > std::numbers::pi) {
       throw Error(
           run + " has a heading error of " + to_text(runs[i].theta_rad) +
               " rad, more than half a turn, outside the range of -180 to 180 degrees: check the units",
-          EndPoseProblem::heading_beyond_half_a_turn, {run, to_text(runs[i].theta_rad)});
+          EndPoseProblem::heading_beyond_half_a_turn, {direction, number, to_text(runs[i].theta_rad)});
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/agreement.hpp"
 #include "host/calibration/likelihood/innovation.hpp"
+#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/likelihood/moves.hpp"
 #include "host/calibration/likelihood/normal_equations.hpp"

@@ -26,15 +26,6 @@
 /// Source  Kalman innovations as likelihood: Schweppe 1965; start: Censi et al. 2013 (relative_pose.hpp).
 namespace astro::calibration {
 
-/// Why the runs together do not determine the factors.
-enum class LikelihoodProblem {
-  wheel_turns_backwards,
-  never_turned,
-  only_spun,
-  all_move_alike,
-  implausible_factors
-};
-
 struct MlOptions {
   /// True: the truth's times are already the robot's, and neither offset nor skew is estimated.
   bool clock_known = false;

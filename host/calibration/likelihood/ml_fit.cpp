@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/calibration/likelihood/start_values.hpp"
 #include "host/calibration/likelihood/whiteness.hpp"
 

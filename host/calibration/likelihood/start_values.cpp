@@ -7,7 +7,7 @@
 #include <span>
 
 #include "host/base/error.hpp"
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/preparation/mounting.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"

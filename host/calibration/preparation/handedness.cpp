@@ -7,7 +7,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
-#include "host/calibration/preparation/preparation.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 
 namespace astro::calibration {
 namespace {

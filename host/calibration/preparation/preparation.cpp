@@ -15,6 +15,7 @@
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/handedness.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "host/calibration/preparation/sessions.hpp"
 #include "host/calibration/preparation/wheel_way.hpp"
 

@@ -28,16 +28,19 @@ struct EndPosesOptions {
   MethodOption method;
 };
 
-std::vector<calibration::EndPose> end_poses(const fs::path& file, double side_m) {
-  const std::vector<calibration::EndPose> poses =
-      calibration::read_end_poses(as_text(load_text(file)), file.string());
-  for (const calibration::EndPose& pose : poses)
-    if (const double off_m = std::hypot(pose.x_m, pose.y_m); side_m > 0 && off_m > side_m)
+/// Reads the table of the runs of one direction into `poses`, and where each is from into `from`.
+void read_end_poses(const fs::path& file, Sense sense, double side_m,
+                    std::vector<calibration::EndPose>& poses, std::vector<std::string>& from) {
+  calibration::EndPoseTable table =
+      calibration::read_end_poses(as_text(load_text(file)), file.string(), sense);
+  for (const int line : table.lines) from.push_back(fmt::format("{}, line {}", file.string(), line));
+  poses = std::move(table.poses);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (const double off_m = std::hypot(poses[i].x_m, poses[i].y_m); side_m > 0 && off_m > side_m)
       throw Error(fmt::format(
           "{}: a run of a square of {} m has an error of {:.3g} m, more than any robot's: name the "
           "columns by their unit, ex_mm or ex_m",
-          file.string(), side_m, off_m));
-  return poses;
+          from[i], side_m, off_m));
 }
 
 std::vector<calibration::SquareEnd> ends_of(const std::vector<calibration::EndPose>& errors) {
@@ -48,13 +51,13 @@ std::vector<calibration::SquareEnd> ends_of(const std::vector<calibration::EndPo
 
 /// Throws for an end that a moved decimal point or a changed sign explains, because such a mistake is easily corrected. An
 /// odd end without such an explanation is accepted.
-void refuse_mistakes(const experiment::Squares& squares, const EndPosesOptions& options) {
+void refuse_mistakes(const experiment::Squares& squares) {
   for (const calibration::OddRun& odd :
        calibration::odd_runs(ends_of(squares.cw), ends_of(squares.ccw), {squares.side_m, squares.loaded}))
     if (odd.mistake)
       throw Error(fmt::format("{}: run {} has {}. Correct it, or leave the run out",
-                              (odd.sense == Sense::cw ? options.cw : options.ccw).string(), odd.index + 1,
-                              described(odd)));
+                              (odd.sense == Sense::cw ? squares.cw_from : squares.ccw_from)[odd.index],
+                              odd.index + 1, described(odd)));
 }
 
 }  // namespace
@@ -96,11 +99,11 @@ void add_calibrate_end_poses(console::Command calibrate) {
   command.callback([options] {
     const experiment::MethodChoice method = options->method.choice();
     experiment::Squares squares;
-    squares.cw = end_poses(options->cw, options->side_m);
-    squares.ccw = end_poses(options->ccw, options->side_m);
+    read_end_poses(options->cw, Sense::cw, options->side_m, squares.cw, squares.cw_from);
+    read_end_poses(options->ccw, Sense::ccw, options->side_m, squares.ccw, squares.ccw_from);
     squares.side_m = options->side_m;
     squares.loaded = {options->c_r, options->c_l, options->wheelbase_m, options->e};
-    refuse_mistakes(squares, *options);
+    refuse_mistakes(squares);
     put_out(experiment::calibrate(squares, method), options->output);
   });
 }

@@ -49,13 +49,14 @@ std::string text_of(const ExportOptions& options) {
   require_no_input(options.to, {options.file});
   require_own_kind(options.to, mark_of(format), "export");
   const experiment::ParameterFile file = experiment::read_parameter_file(options.file);
+  std::optional<experiment::DiffDrive> sizes;
   try {
     experiment::require_loadable(file);
+    sizes = format == "ros2" ? experiment::diff_drive(file, options.nominal)
+                             : sizes_if_known(file, options.nominal);
   } catch (const Error& error) {
-    throw Error("'" + options.file.string() + "': " + in_words(error));
+    throw Error(error.in("'" + options.file.string() + "': "));
   }
-  const auto sizes = format == "ros2" ? std::optional(experiment::diff_drive(file, options.nominal))
-                                      : sizes_if_known(file, options.nominal);
   if (sizes)
     if (const auto note = experiment::single_wheelbase(file, *sizes))
       console::say("warning: " + in_words(*note));

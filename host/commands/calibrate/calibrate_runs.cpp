@@ -6,8 +6,8 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/judgement/remarks.hpp"
-#include "host/calibration/likelihood/maximum_likelihood.hpp"
-#include "host/calibration/preparation/preparation.hpp"
+#include "host/calibration/likelihood/likelihood_problem.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
@@ -20,6 +20,7 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
 #include "host/experiment/files/run_set.hpp"
+#include "host/experiment/files/run_set_problem.hpp"
 
 namespace astro::commands {
 namespace {
@@ -73,6 +74,9 @@ constexpr Advice kCalibrateRunsAdvice[] = {
     {experiment::AnalysisProblem::run_without_truth,
      ": leave it out with 'astrolabe calibrate runs --without {0}', or use --method robust, extended or "
      "umbmark"},
+    {experiment::AnalysisProblem::no_truth,
+     ": drive again with 'astrolabe umbmark' or 'astrolabe record --truth SOURCE', or give a film of the "
+     "drives with --truth film:FILE"},
     {experiment::RunSetProblem::same_recording, ": leave one out with --without {0}"},
     {calibration::JudgementProblem::run_stands_out,
      "; look there, and if it was an accident leave the run out (of a folder: 'astrolabe calibrate runs "

@@ -5,6 +5,7 @@
 #include "host/commands/shared/connection.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/robot/motion/rest.hpp"
 
 namespace astro::commands {
 
@@ -14,10 +15,12 @@ void add_resume(console::Command app) {
   add_connection(command, *options);
   console::examples(command, {"astrolabe resume"});
   command.callback([options] {
+    const auto client = connect(*options);
+    const bool paused = client->request(protocol::GetStatus{}).mode == protocol::Mode::paused;
     ask_driven(
-        *connect(*options), protocol::Resume{},
+        *client, protocol::Resume{},
         "there is nothing to resume: the drive was stopped or has ended; 'astrolabe drive' begins another");
-    console::say("the robot goes on");
+    console::say(paused ? "the robot goes on" : robot::kNotPaused);
   });
 }
 

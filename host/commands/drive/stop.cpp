@@ -8,6 +8,7 @@
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::commands {

@@ -20,7 +20,7 @@
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/csv_export.hpp"
-#include "host/recording/run_file.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_writer.hpp"
 #include "host/robot/parameters/parameters.hpp"
 

@@ -36,6 +36,7 @@
 #include "host/experiment/drive/open_journal.hpp"
 #include "host/experiment/files/method_names.hpp"
 #include "host/experiment/files/plan.hpp"
+#include "host/experiment/files/plan_problem.hpp"
 #include "host/report/report.hpp"
 #include "host/wall/wall_robot.hpp"
 

@@ -15,6 +15,7 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/live/driver/robot_parameter_table.hpp"
+#include "host/robot/client/robot_problem.hpp"
 
 namespace astro::commands {
 namespace {

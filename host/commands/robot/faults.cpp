@@ -18,6 +18,7 @@
 #include "host/console/interrupt.hpp"
 #include "host/console/options.hpp"
 #include "host/robot/client/refusal.hpp"
+#include "host/robot/client/robot_problem.hpp"
 
 namespace astro::commands {
 namespace {

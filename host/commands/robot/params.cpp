@@ -18,6 +18,7 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/import/drives/robot_geometry.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/robot/parameters/upload.hpp"
 
@@ -141,7 +142,8 @@ void export_to_file(const ParamsOptions& options, RemoteParameters& robot) {
   ParameterValues values;
   for (const robot::ParameterRow& row : robot.rows()) values[row.name] = robot::to_value(row, row.active);
   experiment::write_parameters(options.file, values);
-  console::say(fmt::format("{} parameters are in {}", values.size(), options.file.string()));
+  console::say(fmt::format("the {} values in force, tried ones too, are now in {}", values.size(),
+                           options.file.string()));
 }
 
 /// The parameters to be loaded from a file: one of ours, or one of a ROS 2 controller.
@@ -194,7 +196,8 @@ void add_readers(console::Command params, const std::shared_ptr<ParamsOptions>& 
       one, {"astrolabe params get b", "astrolabe params get c_R c_L b", "astrolabe params get b --json"});
 
   const console::Command file =
-      add(params, "export", "write all values into a TOML file", options, without_client(export_to_file));
+      add(params, "export", "write the values in force, tried ones too, into a TOML file", options,
+          without_client(export_to_file));
   file.add_option("file", options->file, "to be written").required().type_name("");
   console::examples(file, {"astrolabe params export astro.toml"});
 }

@@ -1,5 +1,6 @@
 #include "host/commands/shared/damaged_option.hpp"
 
+#include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 
 namespace astro::commands {
@@ -10,7 +11,7 @@ void add_damaged_flag(console::Command command, bool& damaged) {
 
 void warn_of_recordings(const std::vector<recording::Run>& runs) {
   for (const recording::Run& run : runs)
-    if (!run.warning.empty()) console::say("warning: " + run.warning);
+    if (run.warning) console::say("warning: " + in_words(*run.warning));
 }
 
 }  // namespace astro::commands

@@ -146,6 +146,9 @@ constexpr Advice kImportAdvice[] = {
     {importing::ImportProblem::per_interval_likely, ": give --per-interval"},
     {importing::ImportProblem::turns_against_stated_up,
      ": give --swap-wheels if left and right are exchanged, or another axis to --up"},
+    {importing::ImportProblem::turns_against_exchanged,
+     ": leave out --swap-wheels if left and right are not exchanged, or give --up with the axis of the "
+     "tracker that points up"},
     {importing::WheelProblem::columns_unclear,
      ": say what they are with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, "
      "..._m, "

@@ -137,7 +137,7 @@ std::string bag_text(const BagInspection& bag) {
                             : "; which are the wheels, the names do not tell."));
   }
   text += sources_text(bag);
-  for (const std::string& warning : bag.report.warnings) text += wrapped(warning);
+  for (const Remark& warning : bag.report.warnings) text += wrapped(in_words(warning));
   return text;
 }
 
@@ -245,7 +245,7 @@ nlohmann::json bag_json(const BagInspection& bag) {
           {"wheel_sources", sources},
           {"truncated", bag.report.truncated},
           {"damaged", bag.report.damaged},
-          {"warnings", bag.report.warnings}};
+          {"warnings", facts_of(bag.report.warnings)}};
 }
 
 nlohmann::json tracker_json(const truth::Inspection& tracker) {

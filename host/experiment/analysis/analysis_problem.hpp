@@ -16,6 +16,7 @@ enum class AnalysisProblem {
   file_lacks_parameter,  // values: the run's name, and the parameter
   run_lacks_parameter,   // the same if the run's file is not known; values: its title, and the parameter
   run_without_truth,     // value: the run's name
+  no_truth,              // in any run
   no_phase_complete,     // value: the experiment's folder
   no_calibration,  // values: the factor that is missing, and the file if it is known; no values for a folder
   factors_of_other_wheel,  // value: the file

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "host/base/error.hpp"
+#include "host/base/text/sense.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/files/method_names.hpp"
@@ -190,8 +192,32 @@ void apply(const calibration::LineScale& scale, Calibration& result) {
   result.line_scale = scale;
 }
 
+void require_truth(Phases phases) {
+  for (const auto& phase : phases)
+    for (const recording::Run& run : phase->runs())
+      if (!run.truth.empty()) return;
+  throw Error("none of the recordings has ground truth, so nothing tells where the robot really was",
+              AnalysisProblem::no_truth);
+}
+
 Calibration calibrate_phases(Phases phases, const MethodChoice& method, const MlChoice& ml) {
+  require_truth(phases);
   return uses_ml(phases, method) ? by_ml(phases, ml) : by_end_poses(phases, method);
+}
+
+/// estimate_factors, whose errors name a run by its direction and number; these say before it where the run is from.
+calibration::Estimate estimate_of(const Squares& squares, const calibration::Options& options) {
+  using calibration::EndPoseProblem;
+  try {
+    return calibration::estimate_factors(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);
+  } catch (const Error& error) {
+    if (error.kind() != Kind(EndPoseProblem::no_heading) &&
+        error.kind() != Kind(EndPoseProblem::heading_beyond_half_a_turn))
+      throw;
+    const auto& from = error.values()[0] == in_words(Sense::cw) ? squares.cw_from : squares.ccw_from;
+    if (from.empty()) throw;
+    throw Error(error.in(from.at(std::stoul(error.values()[1]) - 1) + ": "));
+  }
 }
 
 }  // namespace
@@ -225,8 +251,7 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
     throw Error("maximum likelihood needs whole drives with ground truth, and end poses are all there is",
                 AnalysisProblem::end_poses_only);
   const calibration::Options options = options_for(method);
-  const calibration::Estimate estimate =
-      calibration::estimate_factors(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);
+  const calibration::Estimate estimate = estimate_of(squares, options);
   Calibration result;
   result.judgement =
       calibration::cross_validate(squares.cw, squares.ccw, squares.side_m, squares.loaded, options);

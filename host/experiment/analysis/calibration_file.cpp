@@ -10,6 +10,7 @@
 #include "host/base/text/plain_text.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
+#include "host/experiment/analysis/parameter_file_problem.hpp"
 #include "host/experiment/files/toml_file.hpp"
 
 namespace astro::experiment {
@@ -188,7 +189,9 @@ void write_parameters(const fs::path& path, const ParameterValues& values) {
   }
   std::ostringstream text;
   text << toml::table{{"parameters", parameters}} << '\n';
-  save(path, "The parameters of a robot, exported by Astrolabe.", text.str());
+  save(path,
+       "The values in force in a robot, exported by Astrolabe. Values that were only tried are among them.",
+       text.str());
 }
 
 void write_parameter_file(const fs::path& path, const ParameterFile& file) {

@@ -12,9 +12,6 @@
 /// keep what is to be loaded under [parameters], by table name and in SI units.
 namespace astro::experiment {
 
-/// What is wrong with a file of parameters. Values: the file and, for value_of_other_type, the parameter.
-enum class ParameterFileProblem { no_parameters, value_of_other_type, bad_wheel, bad_covariance, bad_slip };
-
 /// The text of the first line of a file with factors.
 inline constexpr const char* kFoundFactors = "Found by Astrolabe, to be uploaded to the robot that drove.";
 

@@ -41,7 +41,7 @@ void require_possible(const std::string& name, double value) {
 double factor(const ParameterFile& file, const std::string& name) {
   const std::optional<double> value = number_named(file.parameters, name);
   if (!value || !std::isfinite(*value) || *value <= 0)
-    throw Error("the file has no " + name + " under [parameters]", AnalysisProblem::no_calibration, {name});
+    throw Error("it has no " + name + " under [parameters]", AnalysisProblem::no_calibration, {name});
   require_possible(name, *value);
   return *value;
 }
@@ -104,10 +104,10 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
   const std::optional<double> separation_m =
       nominal.wheel_separation_m ? nominal.wheel_separation_m : number_named(file.loaded, "b");
   if (!separation_m)
-    throw Error("the file does not tell the wheelbase that was loaded in the robot",
+    throw Error("it does not tell the wheelbase that was loaded in the robot",
                 AnalysisProblem::no_wheel_separation);
   if (!file.wheel && !nominal.wheel_radius_m)
-    throw Error("the file does not tell the nominal wheel that c_R and c_L refer to",
+    throw Error("it does not tell the nominal wheel that c_R and c_L refer to",
                 AnalysisProblem::no_wheel_radius);
   // The factors refer to the nominal wheel of the file or, if it names none, to that of the receiver.
   const double our_radius_m = file.wheel ? file.wheel->diameter_m / 2 : *nominal.wheel_radius_m;

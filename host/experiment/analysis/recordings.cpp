@@ -22,7 +22,7 @@ const std::vector<calibration::Trajectory>& Recordings::trajectories() const {
 }
 
 const Squares& Recordings::squares() const {
-  if (!squares_) squares_ = squares_of(set_.runs);
+  if (!squares_) squares_ = squares_of(set_.runs, set_.names);
   return *squares_;
 }
 

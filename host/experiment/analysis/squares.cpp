@@ -23,15 +23,15 @@ namespace {
 using calibration::EndPose;
 using calibration::SquareEnd;
 
-SquareEnd end_in(const recording::Run& run) {
-  const auto [absolute, odometry] = recording::ends_of(run);
+SquareEnd end_in(const recording::Run& run, const std::string& file = "") {
+  const auto [absolute, odometry] = recording::ends_of(run, file);
   return {wrapped(absolute), wrapped(odometry)};
 }
 
 /// The squares of one direction, before any is left out.
 struct Driven {
   std::vector<SquareEnd> ends;
-  std::vector<std::string> names;
+  std::vector<std::string> names, from;
   std::vector<bool> entered;  // by a person
 };
 
@@ -41,8 +41,9 @@ struct AllDriven {
   Driven& of(Sense sense) { return sense == Sense::cw ? cw : ccw; }
 };
 
-void accept(Squares& squares, AllDriven& driven, const recording::Run& run, bool first) {
-  const calibration::WheelFactors loaded = loaded_factors(run.info);
+void accept(Squares& squares, AllDriven& driven, const recording::Run& run, const std::string& file) {
+  const calibration::WheelFactors loaded = loaded_factors(run.info, file);
+  const bool first = driven.cw.ends.empty() && driven.ccw.ends.empty();
   if (first) {
     squares.loaded = loaded;
     squares.side_m = run.info.size_m;
@@ -59,8 +60,9 @@ void accept(Squares& squares, AllDriven& driven, const recording::Run& run, bool
         AnalysisProblem::squares_of_different_sizes,
         {fmt::format("{}", squares.side_m), fmt::format("{}", run.info.size_m)});
   Driven& direction = driven.of(*run.info.direction);
-  direction.ends.push_back(end_in(run));
+  direction.ends.push_back(end_in(run, file));
   direction.names.push_back(recording::run_name(run.info));
+  direction.from.push_back(file.empty() ? direction.names.back() : "'" + file + "'");
   direction.entered.push_back(!run.info.truth_source.empty() && !has_moving_truth(run.info));
 }
 
@@ -81,8 +83,11 @@ std::vector<bool> sifted(Squares& squares, const Driven& direction, Sense sense,
 void take(Squares& squares, const Driven& direction, Sense sense,
           std::span<const calibration::OddRun> odd_runs) {
   const std::vector<bool> used = sifted(squares, direction, sense, odd_runs);
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) (sense == Sense::cw ? squares.cw : squares.ccw).push_back(direction.ends[i].error());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    (sense == Sense::cw ? squares.cw : squares.ccw).push_back(direction.ends[i].error());
+    (sense == Sense::cw ? squares.cw_from : squares.ccw_from).push_back(direction.from[i]);
+  }
 }
 
 }  // namespace
@@ -92,10 +97,11 @@ bool same_factors(const calibration::WheelFactors& a, const calibration::WheelFa
   return same_number(a.c_r, b.c_r) && same_number(a.c_l, b.c_l) && same_number(a.b_m, b.b_m) && same_arcs;
 }
 
-calibration::WheelFactors loaded_factors(const recording::RunInfo& info) {
+calibration::WheelFactors loaded_factors(const recording::RunInfo& info, const std::string& file) {
   return with_curvature_named(
-      {loaded_parameter(info, "c_R"), loaded_parameter(info, "c_L"), loaded_parameter(info, "b")},
-      info.parameters, fmt::format("the recording '{}'", recording::run_name(info)));
+      {loaded_parameter(info, "c_R", file), loaded_parameter(info, "c_L", file),
+       loaded_parameter(info, "b", file)},
+      info.parameters, fmt::format("the recording '{}'", file.empty() ? recording::run_name(info) : file));
 }
 
 calibration::WheelFactors loaded_in_all(const RunSet& set) {
@@ -108,13 +114,13 @@ calibration::WheelFactors loaded_in_all(const RunSet& set) {
   return first;
 }
 
-Squares squares_of(std::span<const recording::Run> runs) {
+Squares squares_of(std::span<const recording::Run> runs, std::span<const std::string> files) {
   Squares squares;
   AllDriven driven;
-  for (const recording::Run& run : runs) {
-    if (run.info.kind == "square" && run.info.direction)
-      accept(squares, driven, run, driven.cw.ends.empty() && driven.ccw.ends.empty());
-    if (const auto line = line_of(run)) squares.lines.push_back(*line);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string file = files.empty() ? "" : files[i];
+    if (runs[i].info.kind == "square" && runs[i].info.direction) accept(squares, driven, runs[i], file);
+    if (const auto line = line_of(runs[i], file)) squares.lines.push_back(*line);
   }
   if (driven.cw.ends.empty() && driven.ccw.ends.empty())
     throw Error("none of the recordings is a square", AnalysisProblem::no_squares);
@@ -124,12 +130,12 @@ Squares squares_of(std::span<const recording::Run> runs) {
   return squares;
 }
 
-std::optional<calibration::LineEnd> line_of(const recording::Run& run) {
+std::optional<calibration::LineEnd> line_of(const recording::Run& run, const std::string& file) {
   if (run.info.kind != "line") return std::nullopt;
   const SquareEnd end = square_end(run);
   const Twist2 arc = end.odometry.log();
   if (!(end.odometry.x_m > 0) || !std::isfinite(end.measured.x_m)) return std::nullopt;
-  const calibration::WheelFactors loaded = loaded_factors(run.info);
+  const calibration::WheelFactors loaded = loaded_factors(run.info, file);
   return calibration::LineEnd{end.measured.x_m, end.measured.y_m, std::hypot(arc.x_m, arc.y_m),
                               (loaded.c_r + loaded.c_l) / 2};
 }

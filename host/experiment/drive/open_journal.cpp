@@ -58,7 +58,8 @@ std::optional<Remark> why_unusable(const Journal& journal, const RunSpec& spec, 
   const auto unusable = [&](const std::string& fact) {
     return Remark{fact, ExperimentProblem::recording_unusable, {file.string()}};
   };
-  if (!run.warning.empty()) return Remark{run.warning, ExperimentProblem::recording_cut_off, {file.string()}};
+  if (run.warning)
+    return Remark{run.warning->sentence, ExperimentProblem::recording_cut_off, {file.string()}};
   if (const std::string why = why_other_run(journal, spec, run.info); !why.empty())
     return unusable(file.string() + " " + why);
   if (spec.kind != "square" || (journal.plan.truth == "film" && run.truth.empty())) return std::nullopt;
@@ -87,8 +88,9 @@ void require_recorded(const fs::path& folder, const Journal& journal, std::size_
   } else if (is_over(journal, phase)) {
     throw cannot_go_on(journal, phase, file, {"'" + file.string() + "' is missing"});
   } else if (fs::exists(driven)) {
-    if (const std::string warning = recording::read_run(driven).warning; !warning.empty())
-      throw to_be_driven_again({warning, ExperimentProblem::recording_cut_off, {driven.string()}}, driven);
+    if (const auto warning = recording::read_run(driven).warning)
+      throw to_be_driven_again({warning->sentence, ExperimentProblem::recording_cut_off, {driven.string()}},
+                               driven);
   }
 }
 

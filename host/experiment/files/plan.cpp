@@ -8,6 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/experiment/files/method_names.hpp"
+#include "host/experiment/files/plan_problem.hpp"
 
 namespace astro::experiment {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/base/error.hpp"
+#include "host/experiment/files/run_set_problem.hpp"
 #include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {

@@ -10,13 +10,6 @@
 
 namespace astro::experiment {
 
-/// What is wrong with recordings that are to be calibrated together.
-enum class RunSetProblem {
-  same_recording,  // value: the run to leave out
-  no_such_name,    // values: the name, and those that there are
-  ambiguous_name   // values: the name, and those that it may be
-};
-
 /// Recordings that are calibrated together: names[i] is the name of runs[i], and sessions[i] that of its session
 /// (calibration::Trajectory::session). If `sessions` is empty, they are found from the data.
 struct RunSet {

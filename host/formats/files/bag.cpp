@@ -8,9 +8,11 @@
 #include <limits>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
+#include "host/formats/files/bag_damage.hpp"
 #include "host/formats/files/bag_files.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/db3_reader.hpp"
@@ -85,7 +87,7 @@ class BagReader {
   BagReport read(const fs::path& path) {
     const BagFiles files = bag_files(path);
     report_.truncated = !files.warnings.empty();
-    for (const std::string& warning : files.warnings) warn(warning);
+    for (const Remark& warning : files.warnings) warn(warning);
     for (const fs::path& file : files.files) {
       report_.files.push_back(file);
       std::error_code ignored;
@@ -96,8 +98,8 @@ class BagReader {
   }
 
  private:
-  void warn(const std::string& what) {
-    if (report_.warnings.size() < kMostWarnings) report_.warnings.push_back(what);
+  void warn(Remark what) {
+    if (report_.warnings.size() < kMostWarnings) report_.warnings.push_back(std::move(what));
   }
 
   /// A file of the bag, or what was unpacked from it.
@@ -107,6 +109,10 @@ class BagReader {
     std::uint64_t stored_bytes = 0;  // of the bag's own file, to which all limits refer
     bool is_unpacked = false;
   };
+
+  void warn(const Part& part, const std::string& what, BagDamage kind) {
+    warn({part.name + what, kind, {part.name}});
+  }
 
   void read_file(const Part& part) {
     switch (bag_file_kind(part.file)) {
@@ -122,9 +128,7 @@ class BagReader {
       case BagFileKind::none:
         break;
     }
-    throw Error(
-        part.name + " is not a bag: it begins like no .db3, .mcap, .bag or .zstd file: name the right file",
-        BagProblem::not_a_bag, {part.name});
+    refuse_as_bag(part.name);
   }
 
   void read_database(const Part& part) {
@@ -180,7 +184,7 @@ class BagReader {
     limits.packed_bytes = part.stored_bytes;
     ChannelTopics channels(topics_);
     bool known = true;
-    std::string_view fault;  // of the first message that has one
+    std::optional<MessageFault> fault;  // of the first message that has one
     McapHandlers handlers;
     handlers.message = [&](const bag::mcap::Channel& channel, const bag::mcap::Schema* schema,
                            const bag::mcap::Message& message) {
@@ -189,15 +193,19 @@ class BagReader {
       if (entry == nullptr) return;
       const auto time_ns = static_cast<std::int64_t>(
           std::min<std::uint64_t>(message.log_time_ns, std::numeric_limits<std::int64_t>::max()));
-      const std::string_view wrong = topics_.take(*entry, time_ns, message.data, limit);
-      if (fault.empty()) fault = wrong;
+      const std::optional<MessageFault> wrong = topics_.take(*entry, time_ns, message.data, limit);
+      if (!fault) fault = wrong;
     };
     const McapReport report = read_mcap(source, handlers, limits);
     report_.truncated = report_.truncated || report.truncated;
-    report_.damaged = report_.damaged || report.damaged || !fault.empty() || !known;
-    for (const Remark& warning : report.warnings) warn(part.name + ": " + warning.sentence);
-    if (!known) warn(part.name + ": more topics than this reader takes");
-    if (!fault.empty()) warn(part.name + ": " + std::string(fault));
+    report_.damaged = report_.damaged || report.damaged || fault || !known;
+    for (const Remark& warning : report.warnings) {
+      Remark of_part = warning.in(part.name + ": ");
+      of_part.values.insert(of_part.values.begin(), part.name);
+      warn(std::move(of_part));
+    }
+    if (!known) warn(part, ": more topics than this reader takes", BagDamage::too_many_topics);
+    if (fault) warn(part, std::string(": ") + fault->what, fault->kind);
   }
 
   void read_packed(const Part& part) {
@@ -212,12 +220,14 @@ class BagReader {
             throw Error("cannot write " + unpacked.string() + ": check its permissions and the disk");
         });
     out.close();
-    if (expansion != Expansion::whole) {
+    if (expansion != Expansion::whole)
       (expansion == Expansion::cut ? report_.truncated : report_.damaged) = true;
-      warn(part.name + (expansion == Expansion::cut         ? " ends inside its compressed data"
-                        : expansion == Expansion::too_large ? " expands to more than 256 times its size"
-                                                            : " has damaged compressed data"));
-    }
+    if (expansion == Expansion::cut)
+      warn(part, " ends inside its compressed data", BagDamage::packed_cut_off);
+    if (expansion == Expansion::too_large)
+      warn(part, " expands to more than 256 times its size", BagDamage::packed_too_large);
+    if (expansion == Expansion::damaged)
+      warn(part, " has damaged compressed data", BagDamage::packed_damaged);
     read_file({unpacked, part.name, part.stored_bytes, true});
   }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/base/bytes.hpp"
+#include "host/base/error.hpp"
 #include "host/formats/cdr/message_layout.hpp"
 
 /// Bags, the recordings of ROS: those of ROS 2 in either of their two storages, and those of ROS 1, whatever
@@ -61,7 +62,8 @@ struct BagReport {
   std::vector<BagTopic> topics;              // in the order of the file
   bool truncated = false;                    // an end is missing; what is before it was read
   bool damaged = false;                      // something inside is wrong and was left out
-  std::vector<std::string> warnings;         // the first few reasons, whole phrases that name the file
+  /// The first few reasons. Each names the file, which is also its first value. The kind is a BagDamage or an McapProblem.
+  std::vector<Remark> warnings;
 };
 
 /// Whether the path looks like a bag by its content: a file that begins like an SQLite database, an MCAP

@@ -11,6 +11,7 @@
 #include "host/base/files.hpp"
 #include "host/base/text/natural_order.hpp"
 #include "host/formats/files/bag.hpp"
+#include "host/formats/files/bag_damage.hpp"
 #include "host/formats/files/compression.hpp"
 #include "host/formats/files/mcap_records.hpp"
 #include "host/formats/files/ros1_bag_reader.hpp"
@@ -23,12 +24,16 @@ namespace {
 constexpr std::string_view kMetadataFile = "metadata.yaml";
 constexpr std::size_t kMostFiles = 10'000, kMostMissing = 8;
 
+bool is_named_as_part(const fs::path& path) {
+  const fs::path extension = path.extension();
+  return extension == ".db3" || extension == ".mcap" || extension == ".zstd";
+}
+
 std::vector<fs::path> parts_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const std::string extension = at->path().extension().string();
-    if (extension != ".db3" && extension != ".mcap" && extension != ".zstd") continue;
+    if (!is_named_as_part(at->path())) continue;
     if (files.size() >= kMostFiles)
       throw Error(folder.string() + " has more than " + std::to_string(kMostFiles) +
                       " parts of a bag in it: name the right file",
@@ -70,7 +75,9 @@ BagFiles named_in(const fs::path& metadata, const fs::path& folder) {
     if (!file.empty()) {
       out.files.push_back(file);
     } else if (out.warnings.size() < kMostMissing) {
-      out.warnings.push_back(metadata.string() + " names " + name.string() + ", which is not there");
+      out.warnings.push_back({metadata.string() + " names " + name.string() + ", which is not there",
+                              BagDamage::file_not_there,
+                              {metadata.string(), name.string()}});
     }
   }
   return out;
@@ -90,6 +97,18 @@ BagFileKind bag_file_kind(const fs::path& path) {
   if (text.starts_with(as_text(bag::mcap::kMagic))) return BagFileKind::mcap;
   if (text.starts_with(kRos1BagMark)) return BagFileKind::ros1;
   return begins_like_zstd(as_bytes(text)) ? BagFileKind::zstd : BagFileKind::none;
+}
+
+void refuse_as_bag(const std::string& name) {
+  throw Error(name + " is not a bag: it begins like no .db3, .mcap, .bag or .zstd file: name the right file",
+              BagProblem::not_a_bag, {name});
+}
+
+void require_bag_content(const fs::path& path) {
+  std::error_code ignored;
+  if (is_named_as_part(path) && fs::is_regular_file(path, ignored) &&
+      bag_file_kind(path) == BagFileKind::none)
+    refuse_as_bag(path.string());
 }
 
 BagFiles bag_files(const fs::path& path) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/base/bytes.hpp"
+#include "host/base/error.hpp"
 
 namespace astro::bag {
 
@@ -18,9 +19,15 @@ inline bool is_ros1_bag(const std::filesystem::path& path) {
   return bag_file_kind(path) == BagFileKind::ros1;
 }
 
+/// Throws the astro::Error for the file `name`, which begins like no part of a bag.
+[[noreturn]] void refuse_as_bag(const std::string& name);
+
+/// Refuses a file that has the extension of a part of a bag and begins like none, so that nobody takes it for a text.
+void require_bag_content(const std::filesystem::path& path);
+
 struct BagFiles {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> warnings;  // of files that metadata.yaml names and that are not there
+  std::vector<Remark> warnings;  // of files that metadata.yaml names and that are not there
 };
 
 /// The files of a bag in the order of their messages. For a folder they are those that its metadata.yaml names, otherwise all

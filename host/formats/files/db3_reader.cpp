@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
+#include "host/formats/files/bag_damage.hpp"
 #include "host/formats/files/sqlite.hpp"
 
 namespace astro::bag {
@@ -86,12 +88,14 @@ class Db3Reader {
     throw Error(file_.name + " " + what + ": name the right file", problem, {file_.name, table});
   }
   std::string why() const { return sqlite3_errmsg(database_.get()); }
-  void damage(const std::string& what) {
+  void damage(BagDamage kind, const std::string& what, std::vector<std::string> values = {}) {
     (cut_ ? report_.truncated : report_.damaged) = true;
-    warn(what);
+    warn(kind, what, std::move(values));
   }
-  void warn(const std::string& what) {
-    if (report_.warnings.size() < 8) report_.warnings.push_back(file_.name + ": " + what);
+  void warn(BagDamage kind, const std::string& what, std::vector<std::string> values = {}) {
+    if (report_.warnings.size() >= 8) return;
+    values.insert(values.begin(), file_.name);
+    report_.warnings.push_back({file_.name + ": " + what, kind, std::move(values)});
   }
 
   void harden() {
@@ -110,7 +114,9 @@ class Db3Reader {
     const std::uint64_t expected = Header(file_.path).file_bytes();
     if (size_ >= expected) return;
     cut_ = report_.truncated = true;
-    warn("the file ends at byte " + std::to_string(size_) + " of " + std::to_string(expected));
+    warn(BagDamage::database_cut_off,
+         "the file ends at byte " + std::to_string(size_) + " of " + std::to_string(expected),
+         {std::to_string(size_), std::to_string(expected)});
     Statement(database_.get(), "PRAGMA writable_schema=ON").step();
   }
 
@@ -159,7 +165,7 @@ class Db3Reader {
   bool rises(const Statement& row) {
     const bool rising = !last_row_ || row.integer(0) > *last_row_;
     last_row_ = row.integer(0);
-    if (!rising) damage("rows that are out of order");
+    if (!rising) damage(BagDamage::rows_out_of_order, "rows that are out of order");
     return rising;
   }
 
@@ -176,10 +182,11 @@ class Db3Reader {
           defined == definitions_.end() ? Definition() : Definition{"ros2msg", defined->second};
       Entry* entry =
           topics_.entry(as_text(rows.bytes(2)), as_text(rows.bytes(3)), as_text(rows.bytes(4)), definition);
-      if (entry == nullptr) return damage("more topics than this reader takes");
+      if (entry == nullptr) return damage(BagDamage::too_many_topics, "more topics than this reader takes");
       by_id_.try_emplace(rows.integer(1), entry);
     }
-    if (step != SQLITE_ROW && step != SQLITE_DONE) damage("topics that cannot be read (" + why() + ")");
+    if (step != SQLITE_ROW && step != SQLITE_DONE)
+      damage(BagDamage::unreadable_topics, "topics that cannot be read (" + why() + ")");
   }
 
   /// The data of topics that nobody wants are not even read from the file.
@@ -198,18 +205,21 @@ class Db3Reader {
     int step = 0;
     while ((step = rows.step()) == SQLITE_ROW && rises(rows)) take(rows);
     if (step == SQLITE_ROW || step == SQLITE_DONE) return;
-    damage("messages that cannot be read, from row " + std::to_string(last_row_.value_or(0)) + " on (" +
-           why() + ")");
+    const std::string last = std::to_string(last_row_.value_or(0));
+    damage(BagDamage::unreadable_messages,
+           "messages that cannot be read, from row " + last + " on (" + why() + ")", {last});
   }
 
   void take(const Statement& row) {
     const auto entry = by_id_.find(row.integer(1));
-    if (entry == by_id_.end()) return damage("a message of an unknown topic");
+    if (entry == by_id_.end())
+      return damage(BagDamage::message_of_unknown_topic, "a message of an unknown topic");
     const bool has_data = row.is_blob(3);
     if (!row.is_integer(2) || has_data != entry->second->wanted)
-      return damage("a message without time or data");
-    const std::string_view fault = topics_.take(*entry->second, row.integer(2), row.bytes(3), expansion_);
-    if (!fault.empty()) damage(std::string(fault));
+      return damage(BagDamage::message_incomplete, "a message without time or data");
+    const std::optional<MessageFault> fault =
+        topics_.take(*entry->second, row.integer(2), row.bytes(3), expansion_);
+    if (fault) damage(fault->kind, fault->what);
   }
 
   const Db3File& file_;

@@ -81,16 +81,18 @@ class Ros1Reader {
   }
 
  private:
-  void warn(const std::string& what) {
-    if (report_.warnings.size() < 8) report_.warnings.push_back(file_.name + ": " + what);
+  void warn(BagDamage kind, const std::string& what, std::vector<std::string> values = {}) {
+    values.insert(values.begin(), file_.name);
+    if (report_.warnings.size() < 8)
+      report_.warnings.push_back({file_.name + ": " + what, kind, std::move(values)});
   }
   void cut(const std::string& what) {
     cut_ = report_.truncated = true;
-    warn(what);
+    warn(BagDamage::cut_off, what);
   }
-  void damage(const std::string& what, std::uint64_t at) {
+  void damage(BagDamage kind, const std::string& what, std::uint64_t at) {
     report_.damaged = true;
-    warn(what + " at byte " + std::to_string(at));
+    warn(kind, what + " at byte " + std::to_string(at), {std::to_string(at)});
   }
 
   /// Behind the line that says the version.
@@ -144,7 +146,8 @@ class Ros1Reader {
     if (in_cut_chunk) return;  // said where that chunk ends
     if (chunk == nullptr && (!closed_ || index_at_ >= source_.size() || at >= index_at_))
       return cut("it ends inside a record at byte " + std::to_string(at));
-    damage("a record that does not fit", chunk == nullptr ? at : chunk->data_at);
+    damage(BagDamage::record_does_not_fit, "a record that does not fit",
+           chunk == nullptr ? at : chunk->data_at);
   }
 
   void take(ByteSource& source, const Ros1Record& record, std::uint64_t end, const Ros1Record* chunk) {
@@ -170,16 +173,19 @@ class Ros1Reader {
       return walk(source_, record.data_at, std::min(record.end(), end), &record);
     if (record.data_bytes == 0) return;
     if (record.size > most_chunk_bytes_ || record.data_bytes > most_chunk_bytes_)
-      return damage("a chunk of more bytes than this reader takes", record.data_at);
+      return damage(BagDamage::chunk_too_large, "a chunk of more bytes than this reader takes",
+                    record.data_at);
     if (record.size > chunk_bytes_left_)
-      return damage("chunks that expand to more than 256 times the file", record.data_at);
+      return damage(BagDamage::chunk_too_large, "chunks that expand to more than 256 times the file",
+                    record.data_at);
     chunk_bytes_left_ -= record.size;
     const bool known = record.compression == "bz2" || record.compression == "lz4";
     const auto bytes =
         known ? expand(record.compression,
                        source_.read(record.data_at, static_cast<std::size_t>(record.data_bytes)), record.size)
               : std::nullopt;
-    if (!bytes) return damage("a chunk that does not expand", record.data_at);
+    if (!bytes)
+      return damage(BagDamage::chunk_does_not_expand, "a chunk that does not expand", record.data_at);
     MemorySource inside(*bytes);
     walk(inside, 0, inside.size(), &record);
   }
@@ -187,28 +193,32 @@ class Ros1Reader {
   void connection(ByteSource& source, const Ros1Record& record) {
     if (connections_.contains(record.connection)) return;  // repeated in each chunk and in the index
     if (record.data_bytes > kMostConnectionBytes || connections_.size() >= kMostConnections)
-      return damage("more connections than this reader takes", record.data_at);
+      return damage(BagDamage::too_many_topics, "more connections than this reader takes", record.data_at);
     std::string_view topic = record.topic, type, definition;
     const ByteView head = source.read(record.data_at, static_cast<std::size_t>(record.data_bytes));
     const bool whole = for_each_head_field(head, [&](std::string_view name, ByteView value) {
       if (name == "type") type = as_text(value);
       if (name == "message_definition") definition = as_text(value);
     });
-    if (!whole || topic.empty()) return damage("a bad connection", record.data_at);
+    if (!whole || topic.empty()) return damage(BagDamage::bad_connection, "a bad connection", record.data_at);
     TopicTable::Entry* entry = topics_.entry(topic, type, "ros1", {"ros1msg", definition});
-    if (entry == nullptr) return damage("more topics than this reader takes", record.data_at);
+    if (entry == nullptr)
+      return damage(BagDamage::too_many_topics, "more topics than this reader takes", record.data_at);
     connections_.emplace(record.connection, entry);
   }
 
   void message(ByteSource& source, const Ros1Record& record) {
     const auto entry = connections_.find(record.connection);
-    if (entry == connections_.end()) return damage("a message of an unknown connection", record.data_at);
+    if (entry == connections_.end())
+      return damage(BagDamage::message_of_unknown_topic, "a message of an unknown connection",
+                    record.data_at);
     if (record.data_bytes > most_chunk_bytes_)
-      return damage("a message of more bytes than this reader takes", record.data_at);
-    const std::string_view fault =
+      return damage(BagDamage::message_too_large, "a message of more bytes than this reader takes",
+                    record.data_at);
+    const std::optional<MessageFault> fault =
         topics_.take(*entry->second, record.time_ns,
                      source.read(record.data_at, static_cast<std::size_t>(record.data_bytes)), messages_);
-    if (!fault.empty()) damage(std::string(fault), record.data_at);
+    if (fault) damage(fault->kind, fault->what, record.data_at);
   }
 
   const Ros1BagFile& file_;

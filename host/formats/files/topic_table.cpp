@@ -72,30 +72,33 @@ TopicTable::Entry* TopicTable::entry(std::string_view name, std::string_view typ
   return &added;
 }
 
-std::string_view TopicTable::take(Entry& entry, std::int64_t log_time_ns, ByteView data,
-                                  ExpansionLimit& limit) {
+std::optional<MessageFault> TopicTable::take(Entry& entry, std::int64_t log_time_ns, ByteView data,
+                                             ExpansionLimit& limit) {
   BagTopic& topic = entry.topic;
   log_time_ns = std::clamp(log_time_ns, -kLastTime_ns, kLastTime_ns);
   topic.first_ns = topic.messages == 0 ? log_time_ns : std::min(topic.first_ns, log_time_ns);
   topic.last_ns = topic.messages == 0 ? log_time_ns : std::max(topic.last_ns, log_time_ns);
   ++topic.messages;
-  if (!entry.wanted) return {};
+  if (!entry.wanted) return std::nullopt;
   if (!entry.ros1_type.empty()) {
     const auto converted = ros2::cdr_from_ros1(*topic.layout, data);
-    if (!converted) return "a message that does not fit its definition";
+    if (!converted)
+      return MessageFault{"a message that does not fit its definition",
+                          BagDamage::message_against_definition};
     handlers_.message(topic, {log_time_ns, *converted});
-    return {};
+    return std::nullopt;
   }
   // CDR begins with a zero, so an uncompressed message is never mistaken for a compressed one.
   if (topic.encoding == "ros1" || !begins_like_zstd(data)) {
     handlers_.message(topic, {log_time_ns, data});
-    return {};
+    return std::nullopt;
   }
   const auto expanded = expand_zstd_frame(data, std::min(limit.one_bytes, limit.all_bytes));
-  if (!expanded) return "a compressed message that does not expand";
+  if (!expanded)
+    return MessageFault{"a compressed message that does not expand", BagDamage::message_does_not_expand};
   limit.all_bytes -= expanded->size();
   handlers_.message(topic, {log_time_ns, *expanded});
-  return {};
+  return std::nullopt;
 }
 
 std::vector<BagTopic> TopicTable::topics() const {

@@ -1,15 +1,23 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "host/formats/files/bag.hpp"
+#include "host/formats/files/bag_damage.hpp"
 
 namespace astro::bag {
 
 /// A type's definition as a bag has it. Formats: "ros1msg", "ros2msg", and others that are not read.
 struct Definition {
   std::string_view format, text;
+};
+
+/// What is wrong with a message, for a person and for a program.
+struct MessageFault {
+  const char* what;
+  BagDamage kind;
 };
 
 /// Takes the messages from the readers of all storages. It counts the messages of each topic, expands those
@@ -38,9 +46,10 @@ class TopicTable {
   };
 
   /// Returns what is wrong with a message that does not expand or to more than is allowed, or that does not
-  /// fit its definition, otherwise ""; it is counted nevertheless. Times are brought within 2^62 ns of 1970,
-  /// which is until 2116, so that the difference of any two is a number.
-  std::string_view take(Entry& entry, std::int64_t log_time_ns, ByteView data, ExpansionLimit& limit);
+  /// fit its definition; it is counted nevertheless. Times are brought within 2^62 ns of 1970, which is until
+  /// 2116, so that the difference of any two is a number.
+  std::optional<MessageFault> take(Entry& entry, std::int64_t log_time_ns, ByteView data,
+                                   ExpansionLimit& limit);
 
   std::vector<BagTopic> topics() const;
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/base/files.hpp"
+#include "host/formats/files/bag_files.hpp"
 #include "host/formats/tables/packed_text.hpp"
 
 namespace astro::tables {
@@ -90,6 +91,7 @@ Bytes in_utf8(Bytes text) {
 }
 
 Bytes text_of_file(const fs::path& path) {
+  bag::require_bag_content(path);
   const Bytes begin = beginning_of(path);
   if (is_gzip(begin)) {
     FileSource file(path);

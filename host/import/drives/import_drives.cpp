@@ -176,33 +176,37 @@ bool drove_backward(const recording::Run& run) {
   return forward_share(run) < kForTheMostPart;
 }
 
-void settle_direction(const std::string& name, const recording::Run& run,
+/// `exchanged`: a person said that the file has left and right exchanged.
+void settle_direction(const std::string& name, const recording::Run& run, bool exchanged,
                       const truth::FloorFindings& findings, std::vector<Remark>& remarks) {
   constexpr double kClear_m = 0.03;  // more than the usual height of a tracker's origin above its floor
   const std::string distance = fmt::format("{:.2f}", -findings.height_m);
+  const auto kind = [&](ImportProblem problem) {
+    return exchanged ? ImportProblem::turns_against_exchanged : problem;
+  };
   // If the axis points down and the wheels are exchanged, both turn alike.
   if (!findings.turns_against_wheels && !findings.up_given && findings.height_m < -kClear_m)
     throw Error(
         fmt::format(
             "the body is {} m below the tracker's origin, so the axis that seems to point up may point down "
-            "and the wheels may be exchanged",
-            distance),
-        ImportProblem::below_origin, {name, distance});
+            "and the wheels may {}be exchanged",
+            distance, exchanged ? "not " : ""),
+        kind(ImportProblem::below_origin), {name, distance});
   if (!findings.turns_against_wheels) return;
   const std::string fact = "the wheels turn the robot the other way than the ground truth";
-  if (findings.height_m <= kClear_m && drove_backward(run))
+  if (!exchanged && findings.height_m <= kClear_m && drove_backward(run))
     throw Error(fact + ", and they count backward, so both encoders seem to be reversed",
                 ImportProblem::encoders_reversed, {name});
-  if (findings.up_given) throw Error(fact, ImportProblem::turns_against_stated_up, {name});
+  if (findings.up_given) throw Error(fact, kind(ImportProblem::turns_against_stated_up), {name});
   if (findings.height_m > kClear_m) {
     remarks.push_back({"the wheels show that the tracker's axis that seems to point up points down"});
     return;
   }
   if (findings.height_m < -kClear_m)
     throw Error(fmt::format("{}, and the body is {} m above the tracker's origin", fact, distance),
-                ImportProblem::turns_against_wheels, {name, distance});
+                kind(ImportProblem::turns_against_wheels), {name, distance});
   throw Error(fact + ", and nothing shows which of the two is a mirror image",
-              ImportProblem::turns_against_wheels, {name});
+              kind(ImportProblem::turns_against_wheels), {name});
 }
 
 /// Samples in a second, from the first to the last.
@@ -226,22 +230,21 @@ std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& f
 /// exchanged wheels the right wheel would get the left factor. If both turn alike but the body is below the
 /// origin, two of the three may be wrong and hide each other, so the axis must be given.
 PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
-                    const RobotGeometry& given, const truth::FloorChoices& choices) {
+                    const RobotGeometry& given, const ImportChoices& choices) {
   WheelRun made = run_of_wheels(name, std::move(wheels), given);
   PairedDrive drive{std::move(made.run), {{}, std::move(made.summary), std::move(made.remarks)}};
   drive.run.info.truth_source = "file";
   drive.run.info.truth_clock = "tracker";
   std::vector<Remark>& all = drive.report.remarks;
-  const auto add = [&](const std::vector<Remark>& remarks) {
-    all.insert(all.end(), remarks.begin(), remarks.end());
-  };
-  add(truth.track.facts.remarks);
-  truth::FloorPath floor = truth::place_on_floor(truth.track, motion_of(drive.run.odometry), choices);
+  truth::FloorPath floor = truth::place_on_floor(truth.track, motion_of(drive.run.odometry), choices.floor);
+  const bool converted = floor.findings.length_factor != 1;
+  for (const Remark& remark : truth.track.facts.remarks)
+    if (!converted || remark.kind != Kind(truth::TrackRemark::length_unit_assumed)) all.push_back(remark);
   drive.run.truth = std::move(floor.samples);
   drive.report.floor = std::move(floor.findings);
-  add(drive.report.floor.remarks);
+  all.insert(all.end(), drive.report.floor.remarks.begin(), drive.report.floor.remarks.end());
   require_turning_wheels(name, drive.run, drive.report.floor);
-  settle_direction(name, drive.run, drive.report.floor, all);
+  settle_direction(name, drive.run, choices.wheels.exchanged, drive.report.floor, all);
   drive.report.summary += summary_of(truth, drive.report.floor);
   return drive;
 }
@@ -263,7 +266,7 @@ PairedDrive paired(const std::string& name, const DriveFiles& files, const Impor
   const ImportedTruth truth = read_truth(files.truth, choices.truth);
   refuse_own_odometry(files, wheels.track.odometry, truth);
   try {
-    return pair_up(name, std::move(wheels), truth, sizes, choices.floor);
+    return pair_up(name, std::move(wheels), truth, sizes, choices);
   } catch (const Error& error) {
     throw Error(error.in("'" + files.wheels.string() + "' with '" + files.truth.string() + "': "));
   }

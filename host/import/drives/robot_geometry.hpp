@@ -20,6 +20,8 @@ namespace astro::importing {
 ///   turns_against_wheels     the drive, and by how many metres the body is above the tracker's origin if it
 ///                            clearly is
 ///   turns_against_stated_up  the drive
+///   turns_against_exchanged  the drive, if its wheels were exchanged because a person said that they are in the file; also
+///                            in place of below_origin
 ///   odometry_is_truth        the topic
 enum class ImportProblem {
   size_not_above_zero,
@@ -35,6 +37,7 @@ enum class ImportProblem {
   below_origin,
   turns_against_wheels,
   turns_against_stated_up,
+  turns_against_exchanged,
   up_axis_of_other,
   wheels_stand,
   wheel_stands,

@@ -1,5 +1,7 @@
 #include "host/import/drives/truth_file.hpp"
 
+#include <vector>
+
 #include "host/base/bytes.hpp"
 #include "host/formats/files/bag.hpp"
 #include "host/formats/tables/text_file.hpp"
@@ -25,6 +27,9 @@ void change_unit(truth::BodyTrack& track, const std::string& unit) {
     sample.pose.z_m *= factor;
   }
   track.facts.length_unit = unit;
+  std::erase_if(track.facts.remarks, [](const Remark& remark) {
+    return remark.kind == Kind(truth::TrackRemark::length_unit_assumed);
+  });
 }
 
 }  // namespace

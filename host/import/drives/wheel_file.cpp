@@ -30,7 +30,7 @@ WheelTrack track_of(const recording::Run& run) {
     before = &sample;
     track.samples.push_back({1000 * sample.time_us, static_cast<double>(left), static_cast<double>(right)});
   }
-  if (!run.warning.empty()) track.remarks.push_back({run.warning});
+  if (run.warning) track.remarks.push_back(*run.warning);
   return track;
 }
 

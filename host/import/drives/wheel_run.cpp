@@ -142,7 +142,7 @@ recording::RunInfo info_of(const ImportedWheels& wheels, const Counter& counter,
 RobotGeometry geometry_of(const ImportedWheels& wheels, const RobotGeometry& given, const std::string& name) {
   if (!wheels.info) return complete_geometry(given, wheels.track.unit);
   const experiment::NominalWheel wheel = experiment::nominal_wheel(*wheels.info, name);
-  const calibration::WheelFactors loaded = experiment::loaded_factors(*wheels.info);
+  const calibration::WheelFactors loaded = experiment::loaded_factors(*wheels.info, name);
   RobotGeometry geometry;
   geometry.wheel_diameter_m = wheel.diameter_m;
   geometry.counts_per_turn = wheel.counts_per_turn;

@@ -102,7 +102,7 @@ class FieldWheels {
       if (topic.name == source_.left.topic || topic.name == source_.right.topic)
         require_possible(topic.messages, 24, "messages of wheels", path_);
     const bag::BagReport report = bag::read_bag(path_, handlers);
-    for (const std::string& warning : report.warnings) remark(warning);
+    track_.remarks.insert(track_.remarks.end(), report.warnings.begin(), report.warnings.end());
     if (unreadable_ > 0)
       remark(std::to_string(unreadable_) + " messages of wheels do not fit their type and were left out");
     if (without_values_ > 0)

@@ -158,7 +158,7 @@ class JointWheels {
   }
 
   void finish(const bag::BagReport& report) {
-    for (const std::string& warning : report.warnings) remark(warning);
+    track_.remarks.insert(track_.remarks.end(), report.warnings.begin(), report.warnings.end());
     std::vector<Wheels> wheels;
     std::vector<std::string> left, right;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -174,7 +174,9 @@ class JointWheels {
     if (track_.clock == WheelClock::stamp) stamps_.remark("messages of " + topic_, track_.remarks);
     if (track_.samples.size() < 2)
       throw Error(path_.string() + ": " + topic_ + " has fewer than two messages with both wheels (" +
-                  track_.joints.left + ", " + track_.joints.right + "): name the right file");
+                      track_.joints.left + ", " + track_.joints.right + "): name the right file",
+                  JointProblem::too_few_messages,
+                  {path_.string(), topic_, track_.joints.left, track_.joints.right});
     track_.remarks.insert(track_.remarks.end(), differences.begin(), differences.end());
   }
 

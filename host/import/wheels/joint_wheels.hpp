@@ -9,6 +9,9 @@
 
 namespace astro::importing {
 
+/// What is wrong with the messages of joints in a bag. Values: the bag, the topic, and both joints.
+enum class JointProblem { too_few_messages };
+
 /// Joints that are not given are recognised by their names.
 struct JointSelection {
   std::string topic;

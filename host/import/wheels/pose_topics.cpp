@@ -197,7 +197,7 @@ PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
                          pose.qz, pose.qw});
   };
   const PoseReport report = for_each_pose(path, stream.topic, take);
-  for (const std::string& warning : report.bag.warnings) out.remarks.push_back({warning});
+  out.remarks.insert(out.remarks.end(), report.bag.warnings.begin(), report.bag.warnings.end());
   if (report.unreadable > 0)
     out.remarks.push_back(
         {std::to_string(report.unreadable) + " messages do not fit their type and were left out"});

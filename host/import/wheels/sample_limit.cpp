@@ -15,8 +15,9 @@ void require_possible(std::uint64_t samples, std::uint64_t least_bytes, const ch
     bytes += std::filesystem::file_size(file);
   if (samples > kFreeSamples + bytes / least_bytes)
     throw Error(path.string() + " holds more " + what +
-                " than are taken from a file of its size: copy it again from where it was recorded, or "
-                "record the run again");
+                    " than are taken from a file of its size: copy it again from where it was recorded, or "
+                    "record the run again",
+                SampleProblem::too_many, {path.string(), what});
 }
 
 }  // namespace astro::importing

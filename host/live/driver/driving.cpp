@@ -8,6 +8,7 @@
 #include "host/base/text/numbers.hpp"
 #include "host/robot/motion/arming.hpp"
 #include "host/robot/motion/other_program.hpp"
+#include "host/robot/motion/rest.hpp"
 
 namespace astro::live {
 
@@ -149,9 +150,12 @@ void Driving::pause(RobotSession& session) {
   if (halt_ == Halt::none) halt_ = Halt::paused;
 }
 
-void Driving::resume(RobotSession& session) {
+std::string Driving::resume(RobotSession& session) {
+  const bool paused =
+      halt_ == Halt::paused || session.ask(protocol::GetStatus{}).mode == protocol::Mode::paused;
   session.ask(protocol::Resume{});
   if (halt_ == Halt::paused) halt_ = Halt::none;
+  return paused ? "resumed" : robot::kNotPaused;
 }
 
 void Driving::release() {

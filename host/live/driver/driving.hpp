@@ -94,7 +94,8 @@ class Driving {
   std::string stop(RobotSession& session);
   /// Ramps the robot to rest and keeps the rest of its path. Velocities are ignored until resume() or arm().
   void pause(RobotSession& session);
-  void resume(RobotSession& session);
+  /// Returns what was done.
+  std::string resume(RobotSession& session);
   /// To be called when the robot is no longer armed for this node.
   void release();
   bool armed() const { return armed_; }

@@ -75,7 +75,7 @@ void Requests::serve_all() {
   serve("clear_faults",
         [](RobotSession& session) { return session.ask(protocol::ClearFaults{}), "cleared"; });
   serve("pause", [this](RobotSession& session) { return robot_.driving.pause(session), "paused"; });
-  serve("resume", [this](RobotSession& session) { return robot_.driving.resume(session), "resumed"; });
+  serve("resume", [this](RobotSession& session) { return robot_.driving.resume(session); });
   serve("reset_odometry", [this](RobotSession& session) {
     robot_.odometry.set_pose(session, {}, {});
     return "the pose is zero";

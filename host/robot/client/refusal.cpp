@@ -2,6 +2,7 @@
 
 #include "common/protocol/messages.hpp"
 #include "common/safety/fault.hpp"
+#include "host/robot/client/robot_problem.hpp"
 
 namespace astro::robot {
 

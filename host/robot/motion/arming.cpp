@@ -1,6 +1,12 @@
 #include "host/robot/motion/arming.hpp"
 
+#include "host/robot/client/robot_problem.hpp"
+#include "host/robot/motion/drive_problem.hpp"
+
 namespace astro::robot {
+
+DriveFault::DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values)
+    : Error(sentence, RobotProblem::faulted, std::move(values)), fault_(fault) {}
 
 Fault first_fault(std::uint32_t mask) {
   for (unsigned i = 1; i < 32; ++i) {

@@ -14,24 +14,10 @@
 /// What every program that arms a robot has to keep, beside the rules of the robot itself.
 namespace astro::robot {
 
-/// Why a program may not drive a robot, why its drive ended, or why it gets a notice. Values: for segment_aborted the
-/// segment, for ended_early what was done to the robot ("stopped"), for faults_left_behind the faults that were cleared;
-/// then the process id and the command line of the other program, if they are known.
-enum class DriveProblem {
-  stopped_by_another,
-  armed_for_another,
-  driven_by_another,
-  segment_aborted,
-  ended_early,
-  stop_unconfirmed,
-  faults_left_behind
-};
-
 /// The robot stopped because of a fault, or cannot be armed because of a latched one.
 class DriveFault : public Error {
  public:
-  DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values)
-      : Error(sentence, RobotProblem::faulted, std::move(values)), fault_(fault) {}
+  DriveFault(const std::string& sentence, Fault fault, std::vector<std::string> values);
   Fault fault() const { return fault_; }
 
  private:

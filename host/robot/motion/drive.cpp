@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/base/text/numbers.hpp"
 #include "host/robot/client/restore.hpp"
+#include "host/robot/client/robot_problem.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/motion/other_program.hpp"
-#include "host/robot/motion/paths.hpp"
+#include "host/robot/motion/path_problem.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::robot {

@@ -1,6 +1,7 @@
 #include "host/robot/motion/other_program.hpp"
 
 #include "host/robot/motion/arming.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/sharing/port_socket.hpp"
 
 namespace astro::robot {

@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/robot/motion/path_problem.hpp"
 
 namespace astro::robot {
 

@@ -11,9 +11,6 @@
 /// Errors  astro::Error where a number is not finite or outside what a segment can hold.
 namespace astro::robot {
 
-/// A path or speed that is not possible. Values: the quantity with its unit, and the number.
-enum class PathProblem { impossible_number };
-
 using Path = std::vector<protocol::AddSegment>;
 
 /// Speed limits; 0: the robot's own limit.

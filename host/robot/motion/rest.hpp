@@ -4,6 +4,9 @@
 
 namespace astro::robot {
 
+/// What a Resume means to a robot whose mode was not `paused`. A robot that still ramps to rest is in the mode of its drive.
+inline constexpr const char* kNotPaused = "the robot was not paused, unless it was still coming to rest";
+
 /// Waits until a robot that received a stop request no longer powers its motors. The time limit is the
 /// longest ramp that the motion limits allow, and at least five seconds. A robot that still drives then is
 /// disarmed, which opens its bridges at once, so it may roll on.

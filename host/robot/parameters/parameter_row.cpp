@@ -8,6 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/base/text/plain_text.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 
 namespace astro::robot {
 

@@ -11,6 +11,7 @@
 #include "common/params/parameter_set.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/plain_text.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 
 namespace astro::robot {
 

@@ -3,6 +3,8 @@
 #include <optional>
 #include <type_traits>
 
+#include "host/robot/parameters/parameter_problem.hpp"
+
 namespace astro::robot {
 
 namespace {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "host/truth/files/track_problem.hpp"
+
 namespace astro::truth {
 
 std::int64_t FrameNumbers::take(std::string_view cell, const tables::Rows& rows) {

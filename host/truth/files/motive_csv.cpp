@@ -9,6 +9,7 @@
 #include "host/truth/files/frame_numbers.hpp"
 #include "host/truth/files/motive_header.hpp"
 #include "host/truth/files/rotations.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 namespace astro::truth {
 namespace {

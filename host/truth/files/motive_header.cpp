@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "host/base/error.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 namespace astro::truth {
 namespace {
@@ -17,9 +18,11 @@ std::string_view at_or_empty(const HeaderCells& cells, std::size_t index) {
 }
 
 [[noreturn]] void refuse_without_header(const tables::Rows& rows) {
-  throw Error("'" + std::string(rows.file()) +
-              "' has no header of Motive with a row that begins with Frame, so its columns have no meaning: "
-              "export the recording again with its header");
+  throw Error(
+      "'" + std::string(rows.file()) +
+          "' has no header of Motive with a row that begins with Frame, so its columns have no meaning: "
+          "export the recording again with its header",
+      TrackProblem::no_motive_header, {std::string(rows.file())});
 }
 
 void read_values(const HeaderCells& cells, MotiveHeader& out) {
@@ -135,7 +138,9 @@ double MotiveHeader::number(std::string_view key) const {
 }
 
 MotiveHeader read_motive_header(tables::Rows& rows) {
-  if (!rows.next_filled()) throw Error("'" + std::string(rows.file()) + "' is empty");
+  if (!rows.next_filled())
+    throw Error("'" + std::string(rows.file()) + "' is empty", tables::TextProblem::empty,
+                {std::string(rows.file())});
   MotiveHeader out;
   out.separator = tables::separator_of(rows.text());
   const HeaderCells first = tables::split_row(rows, out.separator);

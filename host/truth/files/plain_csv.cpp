@@ -16,6 +16,7 @@
 #include "host/formats/tables/units.hpp"
 #include "host/truth/files/pose_columns.hpp"
 #include "host/truth/files/rotations.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 namespace astro::truth {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/truth/files/rotations.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 namespace astro::truth {
 namespace {

@@ -2,12 +2,16 @@
 
 namespace astro::truth {
 
-/// What is wrong with a recording. Values: the file; then, except for the first three, the line, the column if
-/// it is known, and the text there. For units_differ the unit of the columns before comes first; for no_columns
-/// the names of all columns follow the file, and for columns_differ the line
-/// and the numbers of cells that the row has and that it should have.
+/// What is wrong with a recording. Values: the file; then, except for those up to columns_differ, the line, the column if it is
+/// known, and the text there. For units_differ the unit of the columns before comes first; for no_columns the names of all
+/// columns follow the file, and for columns_differ the line and the numbers of cells that the row has and that it should have.
 enum class TrackProblem {
+  unknown_form,
+  older_motive,
+  no_motive_header,
   no_header,
+  no_body,
+  no_pose,
   no_columns,
   columns_differ,
   no_rigid_body,

@@ -27,14 +27,17 @@ bool is_vicon_start(tables::Rows rows) {
 }
 
 [[noreturn]] void refuse_kind(FileKind kind, std::string_view text, std::string_view file) {
-  if (text.empty()) throw Error("'" + std::string(file) + "' is empty");
+  if (text.empty())
+    throw Error("'" + std::string(file) + "' is empty", tables::TextProblem::empty, {std::string(file)});
   const std::string name = "'" + std::string(file) + "'";
   if (kind == FileKind::motive_rows)
     throw Error(name +
-                " is an export of Motive before version 1.7, whose form is not read: open the take in a "
-                "newer version of Motive and export it again");
+                    " is an export of Motive before version 1.7, whose form is not read: open the take in a "
+                    "newer version of Motive and export it again",
+                TrackProblem::older_motive, {std::string(file)});
   bodies_in_plain({text, file});  // says what a table lacks
-  throw Error(name + " is none of the recordings that can be read");
+  throw Error(name + " is none of the recordings that can be read", TrackProblem::unknown_form,
+              {std::string(file)});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/truth/files/pose_columns.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 namespace astro::truth {
 namespace {
@@ -61,7 +62,8 @@ BodyTrack read_tum(std::string_view text, std::string_view file) {
   TrackFacts& facts = track.facts;
   facts.kind = is_comment(rows.text()) ? FileKind::unknown : tum_kind_of(rows.text());
   if (facts.kind == FileKind::unknown)
-    throw Error("'" + std::string(file) + "' has no row of a time, a position and a quaternion (8 numbers)");
+    throw Error("'" + std::string(file) + "' has no row of a time, a position and a quaternion (8 numbers)",
+                TrackProblem::no_pose, {std::string(file)});
   facts.format = facts.kind == FileKind::euroc ? "EuRoC" : "TUM";
   facts.length_unit = "m";
   facts.rotation_kind = RotationKind::quaternion;

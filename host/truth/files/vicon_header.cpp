@@ -5,6 +5,7 @@
 
 #include "host/base/error.hpp"
 #include "host/formats/tables/units.hpp"
+#include "host/truth/files/track_problem.hpp"
 
 namespace astro::truth {
 namespace {
@@ -139,7 +140,8 @@ std::vector<ViconBody> find_vicon_bodies(std::string_view text, std::string_view
   }
   if (bodies.empty()) bodies = std::move(markers);
   if (bodies.empty())
-    throw Error("'" + std::string(file) + "' holds no body in a section Objects, Segments or Trajectories");
+    throw Error("'" + std::string(file) + "' holds no body in a section Objects, Segments or Trajectories",
+                TrackProblem::no_body, {std::string(file)});
   return bodies;
 }
 

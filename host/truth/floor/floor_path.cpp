@@ -244,7 +244,8 @@ FloorPath place_on_floor(const BodyTrack& track, std::span<const WheelMotion> wh
   FloorFindings& findings = out.findings;
   findings.up = known_up(track, choices, findings);
   std::vector<FloorPoint> points = points_of(track, findings.up);
-  if (points.empty()) throw Error("'" + track.name + "' has no valid pose");
+  if (points.empty())
+    throw Error("'" + track.name + "' has no valid pose", FloorProblem::no_valid_pose, {track.name});
   settle_mirror(points, choices, findings);
   settle_units(points, track, wheels, choices, findings);
   if (!wheels.empty()) settle_direction(points, wheels, findings);

@@ -17,7 +17,7 @@ namespace astro::truth {
 
 /// Why a track cannot be placed on the floor. The first value is its name; of frames_differ the normal of the
 /// positions, the axis of the rotations and the degrees between them follow.
-enum class FloorProblem { frames_differ, no_up_axis };
+enum class FloorProblem { no_valid_pose, frames_differ, no_up_axis };
 
 /// What looks odd in a track. The value is the length of its path over that of the wheels.
 enum class FloorRemark { units_differ };

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <system_error>
 
+#include "host/base/file_problem.hpp"
 #include "host/base/folder_lock.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_folder.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/bounded.hpp"

@@ -63,7 +63,7 @@ void expect_readable(const fs::path& file) {
   try {
     const recording::Run run = recording::run_from_bytes(load_file(file), file.string());
     // Between its last byte and its name a recording is whole and yet called unfinished.
-    EXPECT_TRUE(run.warning.empty() || is_part) << file << run.warning;
+    EXPECT_TRUE(!run.warning || is_part) << file << run.warning->sentence;
   } catch (const std::exception& error) {
     EXPECT_TRUE(is_part && fs::file_size(file) < kBeforeFirstChunk) << file << ": " << error.what();
   }

@@ -8,6 +8,7 @@
 #include "host/formats/files/mcap_reader.hpp"
 #include "host/formats/files/mcap_writer.hpp"
 #include "host/formats/messages/ros_messages.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/recording/sample_messages.hpp"
 #include "tests/host/recording/support.hpp"

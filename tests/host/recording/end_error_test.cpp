@@ -118,6 +118,8 @@ TEST(EndError, RefusalsNameTheRunAndTheEnd) {
   EXPECT_THAT(end, ThrowsTelling(EndProblem::no_heading, kRun));
   run.truth.clear();
   EXPECT_THAT(end, ThrowsTelling(EndProblem::no_truth, kRun, "start"));
+  EXPECT_THAT([&] { ends_of(run, "before/cw-3"); },
+              ThrowsTelling(EndProblem::no_truth, "before/cw-3", "start"));
   run.odometry.clear();
   EXPECT_THAT(end, ThrowsTelling(EndProblem::no_odometry, kRun));
 }

@@ -1,14 +1,16 @@
 #include "host/recording/run_file.hpp"
-#include "host/base/text/sense.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
+#include "host/base/file_problem.hpp"
 #include "host/base/files.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/base/text/sense.hpp"
 #include "host/formats/files/mcap_reader.hpp"
 #include "host/formats/files/mcap_writer.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_metadata.hpp"
 #include "host/recording/run_writer.hpp"
 #include "tests/host/recording/support.hpp"
@@ -17,9 +19,9 @@
 namespace astro::recording {
 namespace {
 
+using astro::support::Tells;
 using astro::support::ThrowsTelling;
 using support::TempFolder;
-using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -102,7 +104,7 @@ TEST(RunFile, WhatIsReadIsWhatWasWritten) {
     const recording::Run run = random_run(kSeed, 500, first_heading_rad);
     write_run(folder / "run.mcap", run);
     const recording::Run back = read_run(folder / "run.mcap");
-    EXPECT_EQ(back.warning, "");
+    EXPECT_FALSE(back.warning);
     expect_same_info(back.info, run.info);
     expect_same_data(run, back);
   }
@@ -121,10 +123,10 @@ TEST(RunFile, ExtremeNumbersSurvive) {
 
 TEST(RunFile, ARunWithoutSamplesKeepsItsInfo) {
   const TempFolder folder;
-  write_run(folder / "run.mcap", {full_info(), {}, {}, ""});
+  write_run(folder / "run.mcap", {full_info(), {}, {}});
   const recording::Run back = read_run(folder / "run.mcap");
   expect_same_info(back.info, full_info());
-  EXPECT_TRUE(back.odometry.empty() && back.truth.empty() && back.warning.empty());
+  EXPECT_TRUE(back.odometry.empty() && back.truth.empty() && !back.warning);
 }
 
 TEST(RunFile, LostTruthComesBackAsNoPoseAndTheHeadingGoesOnBehindIt) {
@@ -168,7 +170,8 @@ TEST(RunWriter, WhatWasRecordedMoreThanTwoSecondsBeforeTheEndOutlivesTheRecorder
   for (const OdometrySample& sample : run.odometry) writer.add(sample);
   const recording::Run rescued = read_run(folder / "run.mcap.part");  // as if the recorder had been killed
   expect_same_info(rescued.info, run.info);
-  EXPECT_THAT(rescued.warning, HasSubstr("cut off"));
+  EXPECT_THAT(rescued.warning.value_or(Remark{}),
+              Tells(RecordingProblem::cut_off, (folder / "run.mcap.part").string()));
   ASSERT_GE(rescued.odometry.size(), 400U);
   EXPECT_EQ(rescued.odometry[399].left_counts, run.odometry[399].left_counts);
   EXPECT_THAT([&] { read_run(folder / "run.mcap"); },

@@ -4,6 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/natural_order.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_file.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/remarks.hpp"

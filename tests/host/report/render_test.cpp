@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/base/text/sense.hpp"
 #include "host/report/assets.hpp"
 #include "host/report/html.hpp"
@@ -107,7 +107,7 @@ TEST(Report, EscapesEveryTextOfItsInput) {
     for (auto& run : phase.runs) {
       run.info.kind = run.info.robot_name = run.info.robot_id = run.info.board = run.info.firmware = evil;
       run.info.started_at = run.info.truth_source = run.info.truth_clock = evil;
-      run.warning = evil;
+      run.warning = Remark{evil};
       run.info.parameters = {{evil, 1.0}};
     }
   }

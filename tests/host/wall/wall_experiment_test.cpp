@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/base/interrupted.hpp"
 #include "host/robot/parameters/upload.hpp"

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "host/base/bytes.hpp"
+#include "host/base/text/number_problem.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "host/base/text/csv_table.hpp"
 #include "tests/support/base/remarks.hpp"
@@ -14,15 +16,16 @@ namespace {
 using Problem = EndPoseTableProblem;
 using support::Tells;
 
-Remark told(std::string_view text) {
-  return support::told_by([&] { (void)read_end_poses(text, "cw.csv"); });
+Remark told(std::string_view text, std::optional<Sense> sense = {}) {
+  return support::told_by([&] { (void)read_end_poses(text, "cw.csv", sense); });
 }
 
+std::vector<EndPose> poses_in(std::string_view text) { return read_end_poses(text, "cw.csv").poses; }
+
 TEST(EndPoseCsv, ReadsTheFormOfTheThesisTables) {
-  const auto runs = read_end_poses(
+  const auto runs = poses_in(
       "run,ex_mm,ey_mm,euclid_mm_printed,etheta_rad\n1,-271.98,-385.85,472.07,0.1874\n2,-189.93,-156.64,246."
-      "19,0.1222\n",
-      "cw.csv");
+      "19,0.1222\n");
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_DOUBLE_EQ(runs[0].x_m, -0.27198);
   EXPECT_DOUBLE_EQ(runs[0].y_m, -0.38585);
@@ -31,7 +34,7 @@ TEST(EndPoseCsv, ReadsTheFormOfTheThesisTables) {
 }
 
 TEST(EndPoseCsv, UnitsAndOrderComeFromTheHeader) {
-  const auto runs = read_end_poses("etheta_deg,ey_cm,EX_M\n90,-2.5,+0.125\n", "cw.csv");
+  const auto runs = poses_in("etheta_deg,ey_cm,EX_M\n90,-2.5,+0.125\n");
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_DOUBLE_EQ(runs[0].x_m, 0.125);
   EXPECT_DOUBLE_EQ(runs[0].y_m, -0.025);
@@ -39,8 +42,8 @@ TEST(EndPoseCsv, UnitsAndOrderComeFromTheHeader) {
 }
 
 TEST(EndPoseCsv, AMissingHeadingIsNotMeasured) {
-  EXPECT_TRUE(std::isnan(read_end_poses("ex_m,ey_m\n1,2\n", "cw.csv")[0].theta_rad));
-  const auto runs = read_end_poses("ex_m,ey_m,etheta_rad\n1,2,\n3,4,0.5\n", "cw.csv");
+  EXPECT_TRUE(std::isnan(poses_in("ex_m,ey_m\n1,2\n")[0].theta_rad));
+  const auto runs = poses_in("ex_m,ey_m,etheta_rad\n1,2,\n3,4,0.5\n");
   EXPECT_TRUE(std::isnan(runs[0].theta_rad));
   EXPECT_EQ(runs[1].theta_rad, 0.5);
 }
@@ -54,7 +57,7 @@ TEST(EndPoseCsv, SpreadsheetHabitsDoNotMatter) {
            std::string("\n\n ex_mm ,\tey_mm, note\n\n -1.5 , 2e1,a\n  \n,,\n3,4,b\n\n"),
            std::string("\"ex_mm\",\"ey_mm\",\"note\"\n\"-1.5\",\" 2e1 \",\"a, \"\"b\"\"\"\n\"3\",\"4\",b"),
        }) {
-    const auto runs = read_end_poses(text, "cw.csv");
+    const auto runs = poses_in(text);
     ASSERT_EQ(runs.size(), 2U) << text;
     EXPECT_DOUBLE_EQ(runs[0].x_m, -0.0015);
     EXPECT_DOUBLE_EQ(runs[0].y_m, 0.020);
@@ -120,14 +123,20 @@ TEST(EndPoseCsv, AFileThatMixesDirectionsIsRefusedWhereOneIsWanted) {
               Tells(Problem::both_directions, "cw.csv", "4"));
 }
 
+TEST(EndPoseCsv, ATableOfTheOtherDirectionIsRefused) {
+  const std::string text = "ex_m,ey_m,direction\n\n1,2,CCW\n1,2,ccw\n";
+  EXPECT_THAT(told(text, Sense::cw), Tells(Problem::other_direction, "cw.csv", "3", "CCW"));
+  EXPECT_EQ(read_end_poses(text, "ccw.csv", Sense::ccw).lines, (std::vector<int>{3, 4}));
+}
+
 TEST(EndPoseCsv, ADirectionThatIsNoneIsRefused) {
   EXPECT_THAT(told("direction,x_err_m,y_err_m\nleft,1,2\n"),
               Tells(Problem::no_direction, "cw.csv", "2", "left"));
 }
 
 TEST(EndPoseCsv, ATapeMeasureTableIsRead) {
-  const auto runs = read_end_poses(
-      "run,direction,x_err_m,y_err_m,heading_err_deg\n1,cw,-0.2,-0.3,9\n2,CW,-0.1,-0.2,\n", "tape.csv");
+  const auto runs =
+      poses_in("run,direction,x_err_m,y_err_m,heading_err_deg\n1,cw,-0.2,-0.3,9\n2,CW,-0.1,-0.2,\n");
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_DOUBLE_EQ(runs[0].theta_rad, std::numbers::pi / 20);
   EXPECT_DOUBLE_EQ(runs[1].y_m, -0.2);

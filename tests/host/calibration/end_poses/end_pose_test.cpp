@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {

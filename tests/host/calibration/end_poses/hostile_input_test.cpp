@@ -8,6 +8,7 @@
 #include "tests/host/calibration/end_poses/square_runs.hpp"
 
 #include "host/base/text/numbers.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "tests/support/base/remarks.hpp"
 
@@ -70,7 +71,7 @@ TEST(HostileInput, ExtendedMethodNamesTheRunThatLacksItsHeading) {
   std::vector<EndPose> some(kCw.begin(), kCw.end());
   some.push_back({0.31, -0.26, kNaN});
   EXPECT_THAT(told(some, kCcw, kSide_m, kNominal, kExtended),
-              Tells(EndPoseProblem::no_heading, "clockwise run 2"));
+              Tells(EndPoseProblem::no_heading, "clockwise", "2"));
 }
 
 TEST(HostileInput, PositionsAreEnoughForTheOtherMethods) {
@@ -100,7 +101,7 @@ TEST(HostileInput, MillimetresTakenForMetresAreNoRobot) {
 
 TEST(HostileInput, AHeadingBeyondHalfATurnIsNamed) {
   EXPECT_THAT(told({{0, 0, 0.03}, {0, 0, 6.25}}, kCcw, kSide_m, kNominal, kExtended),
-              Tells(EndPoseProblem::heading_beyond_half_a_turn, "clockwise run 2", "6.25"));
+              Tells(EndPoseProblem::heading_beyond_half_a_turn, "clockwise", "2", "6.25"));
 }
 
 TEST(HostileInput, AnyFiniteEndPosesGiveAPlausibleRobotOrSayWhatIsWrong) {

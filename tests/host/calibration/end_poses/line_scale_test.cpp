@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "host/calibration/end_poses/end_pose.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "tests/host/calibration/end_poses/slipping_squares.hpp"
 #include "tests/support/base/remarks.hpp"
 

@@ -9,6 +9,7 @@
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
 #include "host/calibration/judgement/remarks.hpp"
+#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/support/base/remarks.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/support/base/remarks.hpp"
 

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/support/base/remarks.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/support/base/remarks.hpp"
 

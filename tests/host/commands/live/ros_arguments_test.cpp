@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/commands/live/robot_driver.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/live/driver/parameter_table.hpp"

@@ -118,6 +118,18 @@ TEST_F(FileSentences, TellWhatIsWrongWithADrive) {
       {"exchanged wheels, axis stated", files("x.csv", "t.tum", " --up z"),
        "'x.csv' with 't.tum': the wheels turn the robot the other way than the ground truth: give "
        "--swap-wheels if left and right are exchanged, or another axis to --up"},
+      {"wheels that were exchanged in vain", files("w.csv", "t.tum", " --swap-wheels"),
+       "'w.csv' with 't.tum': the wheels turn the robot the other way than the ground truth, and the body is "
+       "0.21 m above the tracker's origin: leave out --swap-wheels if left and right are not exchanged, or "
+       "give --up with the axis of the tracker that points up"},
+      {"wheels that were exchanged in vain, axis stated", files("w.csv", "t.tum", " --swap-wheels --up z"),
+       "'w.csv' with 't.tum': the wheels turn the robot the other way than the ground truth: leave out "
+       "--swap-wheels if left and right are not exchanged, or give --up with the axis of the tracker that "
+       "points up"},
+      {"wheels that were exchanged in vain and an axis down", files("w.csv", "down.tum", " --swap-wheels"),
+       "'w.csv' with 'down.tum': the body is 0.21 m below the tracker's origin, so the axis that seems to "
+       "point up may point down and the wheels may not be exchanged: leave out --swap-wheels if left and "
+       "right are not exchanged, or give --up with the axis of the tracker that points up"},
       {"exchanged wheels, no height", files("x.csv", "flat.csv"),
        "'x.csv' with 'flat.csv': the wheels turn the robot the other way than the ground truth, and nothing "
        "shows which of the two is a mirror image: give --swap-wheels if left and right are exchanged, or "
@@ -203,11 +215,15 @@ TEST_F(FileSentences, TellWhatLooksOdd) {
   EXPECT_EQ(
       notices_of(files("w.csv", "unitless.csv")),
       "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost; z is up\n"
-      "w: the unit of length is not stated: metres are assumed\n"
       "w: the unit of the heading is not stated: radians are assumed\n"
       "w: the unit of the time is not stated: s is assumed\n"
       "w: the path is 104.2 times as long as that of the wheels, so one of the two has another unit of "
       "length than it seems; the file states none, and its positions were converted: check the units\n");
+  EXPECT_EQ(
+      notices_of(files("w.csv", "unitless.csv", " --truth-unit cm")),
+      "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost; z is up\n"
+      "w: the unit of the heading is not stated: radians are assumed\n"
+      "w: the unit of the time is not stated: s is assumed\n");
   EXPECT_EQ(
       notices_of(files("w.csv", "down.tum")),
       "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (TUM) at 60 Hz, 0 lost; -z is up\n"

@@ -59,6 +59,12 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithAFolderOfRecordings) {
   recording::Run blind = square(Sense::cw);
   blind.truth.clear();
   record("blind", "cw-1", blind);
+  record("half", "blind-1", blind);
+  record("half", "ccw-1", square(Sense::ccw));
+  const std::string kNoTruth =
+      "none of the recordings has ground truth, so nothing tells where the robot really was: drive again "
+      "with 'astrolabe umbmark' or 'astrolabe record --truth SOURCE', or give a film of the drives with "
+      "--truth film:FILE";
   record("twice", "cw-1", square(Sense::cw));
   record("twice", "cw-2", square(Sense::cw));
   record("long", "cw-1", square(Sense::cw));
@@ -91,14 +97,16 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithAFolderOfRecordings) {
        "cw-1 and cw-2 are the same recording: leave one out with --without cw-2"},
       {"a line of three times its length", "calibrate runs long --method robust",
        "the measured lines give a scale of 3, and a robot has one between 0.5 and 2: check the units"},
-      {"no ground truth", "calibrate runs blind",
-       "run square cw 3 (before) has no valid ground truth while it stands at its start: check that the "
-       "tracker sees the robot there"},
-      {"no ground truth, by maximum likelihood", "calibrate runs blind --method ml",
-       "nothing followed the robot while 'cw-1' was recorded, and maximum likelihood needs that: leave it "
-       "out with 'astrolabe calibrate runs --without cw-1', or use --method robust, extended or umbmark"},
+      {"no ground truth", "calibrate runs blind", kNoTruth},
+      {"no ground truth, by maximum likelihood", "calibrate runs blind --method ml", kNoTruth},
+      {"no ground truth in one of two", "calibrate runs half --method robust",
+       "'blind-1' has no valid ground truth while it stands at its start: check that the tracker sees the "
+       "robot there"},
+      {"no ground truth in one of two, by maximum likelihood", "calibrate runs half --method ml",
+       "nothing followed the robot while 'blind-1' was recorded, and maximum likelihood needs that: leave it "
+       "out with 'astrolabe calibrate runs --without blind-1', or use --method robust, extended or umbmark"},
       {"cut off in the middle", "calibrate runs cut",
-       "run square cw 3 (before) does not stand still for 0.2 s at its end: record a standstill there"},
+       "'cw-1' does not stand still for 0.2 s at its end: record a standstill there"},
       {"cut off at the beginning", "calibrate runs stub",
        "stub/cw-1.mcap is not a recording of a run (it has no record astrolabe.run): name a recording made "
        "by Astrolabe"},
@@ -149,6 +157,8 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithATableOfEndPoses) {
   write("word.csv", "ex_mm,ey_mm\n1,b\n");
   write("huge.csv", "ex_mm,ey_mm\n1,1e999\n");
   write("mixed.csv", "direction,ex_mm,ey_mm\ncw,1,2\nccw,1,2\n");
+  write("ccw-runs.csv", "direction,ex_mm,ey_mm\nccw,1,2\n");
+  write("open.csv", "ex_mm,ey_mm,etheta_deg\n1,2,1\n\n1,2,\n");
   write("left.csv", "direction,ex_mm,ey_mm\nleft,1,2\n");
   write("places.csv", "ex_mm,ey_mm\n1,2\n2,3\n");
   write("metres.csv", "ex_m,ey_m\n100,200\n110,210\n");
@@ -179,14 +189,20 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithATableOfEndPoses) {
       {"both directions", ends("mixed.csv"),
        "mixed.csv, line 3: column direction: the file mixes cw and ccw runs where one direction is wanted: "
        "split it"},
+      {"the table of the other direction", ends("ccw-runs.csv"),
+       "ccw-runs.csv, line 2: column direction: \"ccw\", and this is the table of the clockwise runs: "
+       "exchange the two tables, or correct the direction"},
       {"another direction", ends("left.csv"),
        "left.csv, line 2: column direction: \"left\" is not a direction, which is cw or ccw"},
       {"no headings", ends("places.csv", " --method extended"),
        "the clockwise runs have no heading error, which the extended method calibrates from: measure the end "
        "headings (etheta_rad or etheta_deg), or use the method umbmark"},
+      {"no heading of one run", ends("open.csv", " --method extended"),
+       "open.csv, line 4: clockwise run 2 has no heading error, which the extended method calibrates from: "
+       "measure the end headings (etheta_rad or etheta_deg), or use the method umbmark"},
       {"millimetres as metres", ends("metres.csv"),
-       "metres.csv: a run of a square of 3 m has an error of 224 m, more than any robot's: name the columns "
-       "by their unit, ex_mm or ex_m"},
+       "metres.csv, line 2: a run of a square of 3 m has an error of 224 m, more than any robot's: name the "
+       "columns by their unit, ex_mm or ex_m"},
       {"ends of no robot", ends("far.csv", "", "near.csv"),
        "no pair of wheel and wheelbase ratios explains these ends of squares: check the units, the side "
        "length and that the clockwise and counter-clockwise runs are not exchanged"},
@@ -220,7 +236,7 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithACalibration) {
       {"no parameters", exported("other.toml"),
        "'other.toml' has no [parameters]: it is no calibration and no export of a robot's parameters"},
       {"a factor is missing", exported("few.toml"),
-       "the file has no c_L under [parameters]: name a file that 'astrolabe calibrate' wrote"},
+       "'few.toml': it has no c_L under [parameters]: name a file that 'astrolabe calibrate' wrote"},
       {"a wheelbase below 0", exported("negative.toml"),
        "'negative.toml': b = -0.29 m is out of range: 0.05 m to 2 m, so that a robot would refuse it; "
        "calibrate again"},
@@ -228,9 +244,9 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithACalibration) {
       {"a folder", exported("drives"),
        "'drives' is a folder that holds no calibration: name a file that 'astrolabe calibrate' wrote"},
       {"no loaded wheelbase", exported("good.toml"),
-       "the file does not tell the wheelbase that was loaded in the robot: give --wheel-separation"},
+       "'good.toml': it does not tell the wheelbase that was loaded in the robot: give --wheel-separation"},
       {"no nominal wheel", exported("good.toml") + " --wheel-separation 0.3",
-       "the file does not tell the nominal wheel that c_R and c_L refer to: give --wheel-radius"},
+       "'good.toml': it does not tell the nominal wheel that c_R and c_L refer to: give --wheel-radius"},
       {"no format", exported("good.toml", "out.txt"),
        "'out.txt' does not show the format by its extension (.yaml, .json, .toml): give --format"},
       {"the file itself", exported("good.toml", "good.toml"),

@@ -112,6 +112,7 @@ TEST_F(OtherSentences, TellThatAFileIsOfNoKnownKind) {
   write("empty.csv", "");
   write("names.csv", "time_s,a,b\n1,2,3\n");
   write("text.mcap", "nothing that was recorded\n");
+  write("begin.mcap", std::string("\x89MCAQ0\r\n\0", 9));
   write("zero.bin", std::string(300, '\0'));
   write("open.toml", "[parameters\n");
   write("other.toml", "c = 1\n");
@@ -127,9 +128,9 @@ TEST_F(OtherSentences, TellThatAFileIsOfNoKnownKind) {
        "what they are with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, ..._m, "
        "..._rad_s, ..._rpm, ..._m_s; - for one that is not used)"},
       {"text with the name of a recording", "inspect text.mcap",
-       "text.mcap: no column is named as a time; the columns are nothing, that, was, recorded: say what they "
-       "are with --wheel-columns, such as time_s,left_counts,right_counts (also ..._rad, ..._m, ..._rad_s, "
-       "..._rpm, ..._m_s; - for one that is not used)"},
+       "text.mcap is not a bag: it begins like no .db3, .mcap, .bag or .zstd file: name the right file"},
+      {"a recording with a damaged beginning", "inspect begin.mcap",
+       "begin.mcap is not a bag: it begins like no .db3, .mcap, .bag or .zstd file: name the right file"},
       {"zeros", "inspect zero.bin",
        "zero.bin is not plain text: byte 1 is zero: save the table as comma separated UTF-8"},
       {"cut off", "inspect open.toml",

@@ -7,10 +7,12 @@
 #include <fstream>
 #include <optional>
 
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/experiment/analysis/parameter_file_problem.hpp"
 #include "host/experiment/drive/change_guard.hpp"
 #include "host/experiment/files/toml_file.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"
@@ -136,6 +138,8 @@ TEST_F(CalibrationFile, KeepsTextAndNumbersOfAnExport) {
   const std::filesystem::path path = folder_.path() / "robot.toml";
   write_parameters(path, values);
   EXPECT_EQ(read_parameter_file(path).parameters, values);
+  std::ifstream file(path);
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(file), {}), HasSubstr("only tried"));
 }
 
 TEST_F(CalibrationFile, NamesTheFileThatIsNotThere) {

@@ -6,6 +6,7 @@
 
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/recordings.hpp"
+#include "host/recording/end_error.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::experiment {
@@ -55,6 +56,19 @@ TEST(Squares, RefuseAParameterThatNoRobotCanHave) {
         ThrowsTelling(AnalysisProblem::run_lacks_parameter, "run square cw 3 (before)", "b"))
         << value;
   }
+}
+
+TEST(Squares, AreNamedByTheirFiles) {
+  recording::Run run = square();
+  run.info.parameters.erase("b");
+  const Recordings lacking(RunSet{{"before/cw-3"}, {run}});
+  EXPECT_THAT([&] { (void)lacking.squares(); },
+              ThrowsTelling(AnalysisProblem::file_lacks_parameter, "before/cw-3", "b"));
+  run = square();
+  run.truth.clear();
+  const Recordings blind(RunSet{{"before/cw-3"}, {run}});
+  EXPECT_THAT([&] { (void)blind.squares(); },
+              ThrowsTelling(recording::EndProblem::no_truth, "before/cw-3", "start"));
 }
 
 TEST(LoadedFactors, OfAllRunsMayDifferByLessThanTheRobotResolvesAndNoMore) {

@@ -10,6 +10,7 @@
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/recordings.hpp"
 #include "host/experiment/files/run_set.hpp"
+#include "host/experiment/files/run_set_problem.hpp"
 #include "host/recording/run_file.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/robots/desk.hpp"

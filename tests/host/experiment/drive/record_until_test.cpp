@@ -4,6 +4,7 @@
 
 #include "host/base/error.hpp"
 #include "host/experiment/drive/record_run.hpp"
+#include "host/recording/recording_problem.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/recording/run_writer.hpp"
 #include "tests/support/base/bounded.hpp"
@@ -57,7 +58,7 @@ TEST_F(Streaming, OfTwentyMinutesTakesNoMoreMemoryThanThatOfOne) {
 TEST_F(Streaming, GivesTheSameRunAsItIsReadBack) {
   heap_after(10s);
   const recording::Run run = recording::read_run(path());
-  EXPECT_EQ(run.warning, "");
+  EXPECT_FALSE(run.warning);
   ASSERT_GT(run.odometry.size(), 990U);
   ASSERT_GT(run.truth.size(), 550U);  // the cameras see 60 poses a second
   EXPECT_GE(run.truth.front().time_us, run.odometry.front().time_us);
@@ -88,7 +89,8 @@ TEST_F(Streaming, OfAProcessThatWasKilledOnlyTheLastTwoSecondsAreMissing) {
   EXPECT_FALSE(std::filesystem::exists(path()));
   std::filesystem::rename(path().string() + ".part", path());
   const recording::Run run = recording::read_run(path());
-  EXPECT_NE(run.warning, "");
+  ASSERT_TRUE(run.warning);
+  EXPECT_THAT(*run.warning, support::Tells(recording::RecordingProblem::cut_off, path().string()));
   EXPECT_GE(run.odometry.back().time_us, static_cast<std::int64_t>(end_us) - 2'000'000);
 }
 

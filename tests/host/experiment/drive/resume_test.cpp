@@ -8,6 +8,7 @@
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/drive/open_journal.hpp"
 #include "host/recording/run_file.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "host/truth/source/manual_source.hpp"
 #include "tests/host/experiment/files/older_journal.hpp"

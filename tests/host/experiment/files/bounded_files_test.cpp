@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/base/file_problem.hpp"
 #include "host/base/files.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"

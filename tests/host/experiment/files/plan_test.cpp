@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/experiment/files/method_names.hpp"
+#include "host/experiment/files/plan_problem.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::experiment {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/film/picture/detector.hpp"
 #include "host/film/picture/film_info.hpp"
 #include "host/film/picture/film_program.hpp"

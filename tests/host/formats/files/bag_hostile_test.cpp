@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "host/base/error.hpp"
+#include "host/formats/files/bag_damage.hpp"
 #include "tests/host/formats/files/made_bags.hpp"
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/base/mutations.hpp"
@@ -16,8 +17,8 @@ namespace {
 using namespace made_bags;  // NOLINT(google-build-using-namespace): its names are about bags alone
 using astro::support::measured;
 using astro::support::Taken;
+using astro::support::Tells;
 using astro::support::ThrowsTelling;
-using ::testing::HasSubstr;
 
 constexpr std::size_t kMebibyte = std::size_t{1} << 20;
 
@@ -74,7 +75,7 @@ TEST_F(HostileBag, VirtualTablesAreRefused) {
 
 TEST_F(HostileBag, RowsWithoutTimesOrTopicsAreLeftOut) {
   make_database(schema(1) + "INSERT INTO messages VALUES(1,1,'soon',x'00'),(2,7,1,x'00'),(3,1,2,x'00');");
-  expect_warned(at("x.db3"), HasSubstr("a message without time or data"));
+  expect_warned(at("x.db3"), Tells(BagDamage::message_incomplete, at("x.db3").string()));
 }
 
 TEST_F(HostileBag, MoreTopicsThanAnyRobotHasAreLeftOut) {
@@ -82,7 +83,7 @@ TEST_F(HostileBag, MoreTopicsThanAnyRobotHasAreLeftOut) {
       schema(1) +
       "WITH RECURSIVE n(i) AS (SELECT 10 UNION ALL SELECT i+1 FROM n LIMIT 100000) INSERT INTO topics "
       "SELECT i,'/t'||i,'t','cdr' FROM n;");
-  expect_warned(at("x.db3"), HasSubstr("more topics than this reader takes"));
+  expect_warned(at("x.db3"), Tells(BagDamage::too_many_topics, at("x.db3").string()));
 }
 
 TEST_F(HostileBag, FilesAndMessagesThatExpandToGigabytesAreCutOff) {
@@ -97,7 +98,7 @@ TEST_F(HostileBag, FilesAndMessagesThatExpandToGigabytesAreCutOff) {
     add(database, 2, 1, packed);
     run(database, "COMMIT");
   }
-  expect_warned(at("x.db3"), HasSubstr("does not expand"));
+  expect_warned(at("x.db3"), Tells(BagDamage::message_does_not_expand, at("x.db3").string()));
 }
 
 /// Points every page of the messages' tree at the first one, so that a walk over it never ends.
@@ -114,7 +115,7 @@ TEST_F(HostileBag, PagesThatLeadRoundInACircleEnd) {
         file[start + 12 + 2 * cell + byte] = file[start + 12 + byte];
   }
   save(at("x.db3"), file);
-  expect_warned(at("x.db3"), HasSubstr("out of order"));
+  expect_warned(at("x.db3"), Tells(BagDamage::rows_out_of_order, at("x.db3").string()));
 }
 
 /// A journal as it lies beside a database in the middle of a transaction, with the end that SQLite gives one of several

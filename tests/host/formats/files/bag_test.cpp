@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "host/base/error.hpp"
+#include "host/formats/files/bag_damage.hpp"
 #include "tests/host/formats/files/made_bags.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
@@ -13,7 +14,6 @@ namespace {
 using namespace made_bags;  // NOLINT(google-build-using-namespace): its names are about bags alone
 using support::ThrowsTelling;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class Bag : public ::testing::Test {
  protected:
@@ -24,7 +24,7 @@ class Bag : public ::testing::Test {
 std::vector<std::string> whole(const fs::path& path) {
   const Seen seen = read(path);
   EXPECT_FALSE(seen.report.truncated || seen.report.damaged);
-  EXPECT_TRUE(seen.report.warnings.empty()) << seen.report.warnings.front();
+  EXPECT_TRUE(seen.report.warnings.empty()) << seen.report.warnings.front().sentence;
   return seen.messages;
 }
 
@@ -104,7 +104,8 @@ TEST_F(Bag, AFileThatMetadataNameAndThatIsGoneIsReported) {
   const Seen seen = read(folder_.path());
   EXPECT_EQ(seen.messages, expected(3));
   EXPECT_TRUE(seen.report.truncated);
-  EXPECT_THAT(seen.report.warnings, ElementsAre(HasSubstr("names x_1.db3, which is not there")));
+  EXPECT_THAT(seen.report.warnings, ElementsAre(support::Tells(BagDamage::file_not_there,
+                                                               at("metadata.yaml").string(), "x_1.db3")));
 }
 
 TEST_F(Bag, TheNewestMessagesOfARecorderThatWasKilledAreInItsLog) {

@@ -5,6 +5,7 @@
 
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/preparation/preparation.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
 #include "host/formats/tables/text_file.hpp"

@@ -268,6 +268,13 @@ class Directions : public Import {
                                  test::write_tum(at("t.tum"), drives()[0], frame, 0, height_m)}},
         choices);
   }
+
+  /// Of files in which left and right are exchanged.
+  static ImportChoices of_exchanged_files() {
+    ImportChoices exchanged = choices();
+    exchanged.wheels.table.columns = "time_s,right_counts,left_counts";
+    return exchanged;
+  }
 };
 
 TEST_F(Directions, AnAxisThatPointsDownIsRecognisedByTheHeightOfTheBody) {
@@ -278,16 +285,12 @@ TEST_F(Directions, AnAxisThatPointsDownIsRecognisedByTheHeightOfTheBody) {
 }
 
 TEST_F(Directions, ExchangedWheelsUnderABodyAboveTheFloorAreRefusedAndNotTakenForAMirrorImage) {
-  ImportChoices exchanged = choices();
-  exchanged.wheels.exchanged = true;
-  EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged); }),
+  EXPECT_THAT(told_by([&] { imported(test::z_up, of_exchanged_files()); }),
               Tells(ImportProblem::turns_against_wheels, "w", "0.21"));
 }
 
 TEST_F(Directions, ExchangedWheelsUnderAnAxisThatPointsDownDoNotHideEachOther) {
-  ImportChoices exchanged = choices();
-  exchanged.wheels.exchanged = true;  // as the file would have them
-  EXPECT_THAT(told_by([&] { imported(test::z_down, exchanged); }),
+  EXPECT_THAT(told_by([&] { imported(test::z_down, of_exchanged_files()); }),
               Tells(ImportProblem::below_origin, "w", "0.21"));
   ImportChoices below = choices();
   below.floor.up = truth::Direction3{0, 0, 1};
@@ -298,10 +301,19 @@ TEST_F(Directions, ExchangedWheelsUnderAnAxisThatPointsDownDoNotHideEachOther) {
 }
 
 TEST_F(Directions, WhereNothingShowsWhatIsMirroredNothingIsGuessed) {
+  EXPECT_THAT(told_by([&] { imported(test::z_up, of_exchanged_files(), 0); }),
+              Tells(ImportProblem::turns_against_wheels, "w"));
+}
+
+TEST_F(Directions, WheelsThatWereExchangedInVainAreNotSaidToBeExchanged) {
   ImportChoices exchanged = choices();
   exchanged.wheels.exchanged = true;
-  EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged, 0); }),
-              Tells(ImportProblem::turns_against_wheels, "w"));
+  constexpr ImportProblem kInVain = ImportProblem::turns_against_exchanged;
+  EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged); }), Tells(kInVain, "w", "0.21"));
+  EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged, 0); }), Tells(kInVain, "w"));
+  EXPECT_THAT(told_by([&] { imported(test::z_down, exchanged); }), Tells(kInVain, "w", "0.21"));
+  exchanged.floor.up = truth::Direction3{0, 0, 1};
+  EXPECT_THAT(told_by([&] { imported(test::z_up, exchanged); }), Tells(kInVain, "w"));
 }
 
 TEST_F(Directions, AGivenAxisAgainstTheWheelsIsRefused) {

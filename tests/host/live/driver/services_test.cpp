@@ -233,10 +233,11 @@ TEST_F(Services, PauseAndResumeTheDriveOfAnotherProgram) {
   other.request(protocol::AddSegment{protocol::SegmentKind::line, 1, 1'000'000'000, 0, 0, 0, 0});
   for (int i = 0; i < 10; ++i) bench.run_ms(50), other.pump({});
   ASSERT_EQ(bench.mode(), Mode::segment);
+  EXPECT_THAT(bench.call("/resume").message, HasSubstr("was not paused"));
   EXPECT_TRUE(bench.call("/pause").success);
   for (int i = 0; i < 40; ++i) bench.run_ms(50), other.pump({});
   EXPECT_EQ(bench.mode(), Mode::paused);
-  EXPECT_TRUE(bench.call("/resume").success);
+  EXPECT_EQ(bench.call("/resume").message, "resumed");
   for (int i = 0; i < 10; ++i) bench.run_ms(50), other.pump({});
   EXPECT_EQ(bench.mode(), Mode::segment);
 }

@@ -85,9 +85,10 @@ TEST_F(OnePort, EverythingThatOnlyLooksWorksBesideADrive) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.code, 0) << words.front() << ": " << outcome.err;
   }
+  EXPECT_THAT(run({"resume"}).err, HasSubstr("was not paused"));
   EXPECT_EQ(run({"pause"}).code, 0);
   EXPECT_TRUE(eventually([&] { return info()["mode"] == "paused"; }));
-  EXPECT_EQ(run({"resume"}).code, 0);
+  EXPECT_THAT(run({"resume"}).err, HasSubstr("the robot goes on"));
   EXPECT_TRUE(has_gone(0.1));
   EXPECT_TRUE(program.running()) << program.err();
 }
@@ -219,7 +220,7 @@ TEST_F(OnePort, ADriveRecordsItself) {
   Program program = drive({"line", "0.5", "--speed", "0.3", "--record", file});
   EXPECT_EQ(program.wait(), 0) << program.err();
   const recording::Run run = recording::read_run(file);
-  EXPECT_EQ(run.warning, "");
+  EXPECT_FALSE(run.warning);
   EXPECT_NEAR(run.odometry.back().x_m - run.odometry.front().x_m, 0.5, 0.005);
   EXPECT_NE(run.odometry.back().left_counts, run.odometry.front().left_counts);
   EXPECT_GT(run.info.parameters.at("b"), 0.1);
@@ -235,7 +236,7 @@ TEST_F(OnePort, ARecordedDriveThatIsInterruptedKeepsWhatItRecorded) {
   program.send(SIGINT);
   EXPECT_EQ(program.wait(), 130);
   const recording::Run run = recording::read_run(file);
-  EXPECT_EQ(run.warning, "");
+  EXPECT_FALSE(run.warning);
   EXPECT_GT(run.odometry.back().x_m - run.odometry.front().x_m, 0.2);
 }
 

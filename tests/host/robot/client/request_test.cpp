@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "host/robot/client/client.hpp"
+#include "host/robot/client/robot_problem.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 

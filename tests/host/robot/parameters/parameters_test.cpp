@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "host/robot/client/robot_problem.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "host/robot/client/robot_problem.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"
 

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "host/robot/client/handshake.hpp"
+#include "host/robot/client/robot_problem.hpp"
 #include "host/robot/motion/drive.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/base/remarks.hpp"

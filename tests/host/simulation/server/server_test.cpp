@@ -12,7 +12,7 @@
 
 #include "common/safety/fault.hpp"
 #include "host/base/error.hpp"
-#include "host/base/files.hpp"
+#include "host/base/file_problem.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"

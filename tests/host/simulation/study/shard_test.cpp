@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/base/text/number_problem.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/study.hpp"

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
-#include "host/experiment/files/plan.hpp"
-#include "host/robot/parameters/parameter_row.hpp"
+#include "host/experiment/files/plan_problem.hpp"
+#include "host/robot/parameters/parameter_problem.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "tests/support/base/remarks.hpp"
 

@@ -1,0 +1,28 @@
+#pragma once
+
+namespace astro::calibration {
+
+/// Why a run cannot be used. Values: its name, if there is one; then the stream (times_missing,
+/// times_run_backwards, times_jump), the number of samples (too_little_truth), or how many gaps there are and their seconds
+/// (odometry_bridged).
+enum class PreparationProblem {
+  no_runs,
+  no_odometry,
+  too_little_truth,
+  times_missing,
+  times_run_backwards,
+  times_jump,
+  odometry_not_finite,
+  odometry_lost,
+  odometry_bridged,
+  too_short,
+  mirrored,
+  mirrored_or_clockwise,
+  headings_clockwise,
+  heading_stays,
+  positions_stay,
+  nothing_in_common,
+  clock_unsettled
+};
+
+}  // namespace astro::calibration

@@ -1,0 +1,22 @@
+#pragma once
+
+namespace astro::recording {
+
+/// Why a file or a folder is no recording. Values: the file or the folder; then what the system says
+/// (folder_unreadable), the entry's key (bad_entry), or the time in microseconds (time_out_of_range).
+enum class RecordingProblem {
+  not_mcap,
+  of_no_run,
+  of_newer_version,
+  bad_entry,
+  cut_off,
+  too_many_samples,
+  poses_without_counts,
+  time_out_of_range,
+  none_in_folder,
+  folder_missing,
+  folder_is_file,
+  folder_unreadable
+};
+
+}  // namespace astro::recording
