@@ -15,9 +15,11 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/commands/truth/commands.hpp"
+#include "host/commands/truth/next_command.hpp"
 #include "host/console/console.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/import/drives/file_inspection.hpp"
+#include "host/import/wheels/unclear_choice.hpp"
 
 namespace astro::commands {
 namespace {
@@ -141,18 +143,6 @@ std::string bag_text(const BagInspection& bag) {
   return text;
 }
 
-const char* unit_name(importing::WheelUnit unit) {
-  switch (unit) {
-    case importing::WheelUnit::counts:
-      return "counts";
-    case importing::WheelUnit::radians:
-      return "rad";
-    case importing::WheelUnit::metres:
-      return "m";
-  }
-  return "";
-}
-
 std::string wheels_text(const WheelInspection& wheels) {
   const char* unit = unit_name(wheels.track.unit);
   Rows rows{{"samples", "seconds", "Hz", "longest gap s", std::string("left ") + unit,
@@ -160,8 +150,11 @@ std::string wheels_text(const WheelInspection& wheels) {
   rows.push_back({fmt::format("{}", wheels.track.samples.size()), fmt::format("{:.1f}", wheels.duration_s),
                   fmt::format("{:.4g}", wheels.rate_hz), fmt::format("{:.2f}", wheels.longest_gap_s),
                   fmt::format("{:.10g}", wheels.left), fmt::format("{:.10g}", wheels.right)});
-  return "Wheels of a robot; travel from the first to the last row:\n" + console::table(rows, "rrrrrr") +
-         said(wheels.track.remarks);
+  const importing::ReadColumns& columns = wheels.track.columns;
+  return wrapped("Wheels of a robot: time from " + columns.time + ", left from " +
+                 importing::listed(columns.left) + ", right from " + importing::listed(columns.right) +
+                 ", in " + columns.values + ". Travel from the first to the last row:") +
+         console::table(rows, "rrrrrr") + said(wheels.track.remarks);
 }
 
 std::string shown(const std::optional<double>& value) { return value ? fmt::format("{:.9g}", *value) : "-"; }
@@ -176,6 +169,17 @@ std::string robot_text(const RobotGeometry& robot) {
   if (robot.e != 0) rows.push_back({"e", fmt::format("{:.9g}", robot.e)});
   if (!robot.joints.left.empty()) rows.push_back({"joints", robot.joints.left + ", " + robot.joints.right});
   return console::table(rows);
+}
+
+std::string end_poses_text(const calibration::EndPoseTable& table) {
+  const calibration::ClusterSummary all = calibration::summarize(table.poses);
+  Rows rows{{"runs", "mean x m", "mean y m", "rms x m", "rms y m", "headings"}};
+  const auto headings = std::ranges::count_if(
+      table.poses, [](const calibration::EndPose& pose) { return std::isfinite(pose.theta_rad); });
+  rows.push_back({fmt::format("{}", all.runs), fmt::format("{:.4f}", all.x_cg_m),
+                  fmt::format("{:.4f}", all.y_cg_m), fmt::format("{:.4f}", all.rms_x_m),
+                  fmt::format("{:.4f}", all.rms_y_m), fmt::format("{}", headings)});
+  return "End-pose errors of closed runs:\n" + console::table(rows, "rrrrrr");
 }
 
 nlohmann::json number(const std::optional<double>& value) {
@@ -257,6 +261,11 @@ nlohmann::json tracker_json(const truth::Inspection& tracker) {
 nlohmann::json wheels_json(const WheelInspection& wheels) {
   return {{"kind", "wheels"},
           {"unit", unit_name(wheels.track.unit)},
+          {"columns",
+           {{"time", wheels.track.columns.time},
+            {"left", wheels.track.columns.left},
+            {"right", wheels.track.columns.right},
+            {"values", wheels.track.columns.values}}},
           {"samples", wheels.track.samples.size()},
           {"duration_s", wheels.duration_s},
           {"rate_hz", wheels.rate_hz},
@@ -269,15 +278,21 @@ nlohmann::json wheels_json(const WheelInspection& wheels) {
 /// What is in a file, as text of at most 120 columns.
 std::string inspection_text(const FileInspection& found) {
   if (found.bag) return bag_text(*found.bag);
-  if (found.tracker) return tracker_text(*found.tracker);
-  if (found.wheels) return wheels_text(*found.wheels);
-  return robot_text(*found.robot);
+  if (found.end_poses) return end_poses_text(*found.end_poses);
+  if (found.robot) return robot_text(*found.robot);
+  return (found.tracker ? tracker_text(*found.tracker) : "") +
+         (found.wheels ? wheels_text(*found.wheels) : "");
 }
 
 nlohmann::json inspection_json(const FileInspection& found) {
   if (found.bag) return bag_json(*found.bag);
+  if (found.tracker && found.wheels)
+    return {{"kind", "wheels and poses"},
+            {"wheels", wheels_json(*found.wheels)},
+            {"tracker", tracker_json(*found.tracker)}};
   if (found.tracker) return tracker_json(*found.tracker);
   if (found.wheels) return wheels_json(*found.wheels);
+  if (found.end_poses) return {{"kind", "end poses"}, {"runs", found.end_poses->poses.size()}};
   const RobotGeometry& robot = *found.robot;
   return {{"kind", "robot"},
           {"wheel_diameter_m", number(robot.wheel_diameter_m)},
@@ -328,9 +343,14 @@ void add_inspect(console::Command app) {
       throw console::WrongUsage(
           "--wheel-columns and --per-interval do not apply here: this is no table of wheels");
     if (options->json) {
-      print_json(inspection_json(found));
+      nlohmann::json json = inspection_json(found);
+      json["command"] = next_command(options->file, found, choices);
+      print_json(json);
     } else {
-      write(inspection_text(found));
+      const std::string next = next_command(options->file, found, choices);
+      write(inspection_text(found) +
+            (next.empty() ? ""
+                          : "\nTo calibrate with it (capitals: what it does not show):\n  " + next + '\n'));
     }
   });
 }

@@ -13,6 +13,7 @@
 #include "host/formats/tables/text_file.hpp"
 #include "host/import/drives/bag_truth.hpp"
 #include "host/import/drives/wheel_file.hpp"
+#include "host/import/wheels/unclear_choice.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/recording/sample_messages.hpp"
 #include "host/truth/files/tracker_file.hpp"
@@ -82,6 +83,7 @@ std::optional<WheelSource> source_taken(const BagInspection& bag) {
 BagInspection inspect_bag(const fs::path& path) {
   BagInspection bag = Pass().over(path);
   bag.poses = pose_streams(path);
+  if (const PoseStream* truth = recognised_stream(bag.poses)) bag.truth = *truth;
   bag.sources = wheel_sources(bag.report.topics);
   bag.source = source_taken(bag);
   bag.ros1 = bag::is_ros1_bag(path);
@@ -120,10 +122,39 @@ std::optional<truth::Inspection> inspect_tracker(const fs::path& path, const std
   return truth::inspect(text, path.string(), columns);
 }
 
+/// Nothing if the columns are not those of end poses.
+std::optional<calibration::EndPoseTable> inspect_end_poses(const fs::path& path) {
+  const Bytes bytes = tables::text_of_file(path);
+  try {
+    return calibration::read_end_poses(as_text(bytes), path.string());
+  } catch (const Error& error) {
+    if (error.kind() == Kind(calibration::EndPoseTableProblem::no_column)) return std::nullopt;
+    throw;
+  }
+}
+
+/// Nothing if the columns do not show which of them are the wheels.
+std::optional<WheelInspection> inspect_wheels_beside_poses(const fs::path& path, const WheelTable& table) {
+  try {
+    return inspect_wheels(read_wheel_table(path, table));
+  } catch (const UnclearChoice&) {
+    return std::nullopt;
+  }
+}
+
 FileInspection inspect_text(const fs::path& path, const WheelTable& table, const std::string& truth_columns) {
   FileInspection out;
   if (table.columns.empty()) out.tracker = inspect_tracker(path, truth_columns);
-  if (!out.tracker) out.wheels = inspect_wheels(read_wheel_table(path, table));
+  if (out.tracker) {
+    if (out.tracker->kind == truth::FileKind::plain) out.wheels = inspect_wheels_beside_poses(path, table);
+    return out;
+  }
+  try {
+    out.wheels = inspect_wheels(read_wheel_table(path, table));
+  } catch (const UnclearChoice&) {
+    out.end_poses = inspect_end_poses(path);
+    if (!out.end_poses) throw;
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/calibration/end_poses/end_pose_csv.hpp"
 #include "host/formats/files/bag.hpp"
 #include "host/import/drives/robot_geometry.hpp"
 #include "host/import/drives/truth_file.hpp"
@@ -28,6 +29,7 @@ struct BagInspection {
   bag::BagReport report;
   std::vector<TopicInspection> topics;
   std::vector<PoseStream> poses;      // ground truth, or a robot's own odometry
+  std::optional<PoseStream> truth;    // the one that is taken if none is named; none if that is unclear
   std::vector<std::string> joints;    // of all messages of joints, at most 1000
   std::optional<JointPair> wheels;    // which of them are the wheels, if their names show it
   std::vector<WheelSource> sources;   // of wheels
@@ -42,12 +44,13 @@ struct WheelInspection {
   double left = 0, right = 0;  // travel from the first to the last sample, in the track's unit
 };
 
-/// Exactly one of these is set.
+/// One of these is set; of a table that holds both wheels and poses, two are.
 struct FileInspection {
   std::optional<BagInspection> bag;
   std::optional<truth::Inspection> tracker;
   std::optional<WheelInspection> wheels;
   std::optional<RobotGeometry> robot;
+  std::optional<calibration::EndPoseTable> end_poses;
 };
 
 /// Recognises the kind of a file by its content, but that of settings (.toml, .yaml, .yml) by its extension.

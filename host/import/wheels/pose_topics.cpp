@@ -154,6 +154,12 @@ std::vector<PoseStream> pose_streams(const fs::path& path) {
 
 bool is_estimate(const PoseStream& stream) { return ros2::may_be_estimate(stream.topic, stream.type); }
 
+const PoseStream* recognised_stream(std::span<const PoseStream> streams) {
+  std::vector<const PoseStream*> all;
+  for (const PoseStream& stream : streams) all.push_back(&stream);
+  return recognised(all, false);
+}
+
 const PoseStream& chosen_stream(const fs::path& path, std::span<const PoseStream> streams,
                                 const PoseSelection& selection, std::vector<Remark>& remarks) {
   std::vector<const PoseStream*> left;

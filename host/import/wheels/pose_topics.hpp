@@ -60,6 +60,9 @@ bool is_estimate(const PoseStream& stream);
 const PoseStream& chosen_stream(const std::filesystem::path& path, std::span<const PoseStream> streams,
                                 const PoseSelection& selection, std::vector<Remark>& remarks);
 
+/// The one that chosen_stream finds if nothing is selected; null if none or several remain.
+const PoseStream* recognised_stream(std::span<const PoseStream> streams);
+
 /// The poses of the stream that chosen_stream selects. Times are header.stamp, and poses without a stamp are
 /// left out; but if most poses have no stamp, the recorder's times are used for all. A remark says if the
 /// stamps are far from the recorder's times or drift against them.

@@ -111,6 +111,8 @@ class WheelRows {
     track.samples =
         mean_of_pairs(std::move(pairs_), named(columns_.left), named(columns_.right), track.remarks);
     add_remarks(track.remarks);
+    track.columns = {named({*columns_.time.at}).front(), named(columns_.left), named(columns_.right),
+                     values()};
     return track;
   }
 
@@ -163,6 +165,13 @@ class WheelRows {
       names.push_back(at < table_.names().size() ? tables::cut_cell(table_.names()[at])
                                                  : "column " + std::to_string(at + 1));
     return names;
+  }
+
+  std::string values() const {
+    std::string text(unit_name(columns_.unit));
+    if (columns_.speeds) text += "/s";
+    if (columns_.scale != 1) text = fmt::format("times {:.6g} {}", columns_.scale, text);
+    return text + (columns_.per_interval ? ", travel per row" : "");
   }
 
   double value(std::size_t at) const {

@@ -25,6 +25,11 @@ enum class WheelRemark {
 
 enum class WheelUnit : std::uint8_t { counts, radians, metres };
 
+/// "counts", "rad" or "m".
+constexpr const char* unit_name(WheelUnit unit) {
+  return unit == WheelUnit::counts ? "counts" : unit == WheelUnit::radians ? "rad" : "m";
+}
+
 /// Travel since some start, forward positive. Counts are whole numbers up to 2^53 unless the file has
 /// fractions.
 struct WheelSample {
@@ -40,12 +45,20 @@ enum class WheelClock : std::uint8_t {
   receipt,  // when the recorder received it, because the messages have no stamp
 };
 
+/// What was read from a table, by the names in its header ("column 3" without one).
+struct ReadColumns {
+  std::string time;
+  std::vector<std::string> left, right;
+  std::string values;  // what the cells are: "counts", "rad/s", "m, travel per row"
+};
+
 /// Times increase strictly; travel is continuous and cumulative.
 struct WheelTrack {
   WheelUnit unit = WheelUnit::counts;
   WheelClock clock = WheelClock::file;
   std::vector<WheelSample> samples;
   std::vector<Remark> remarks;  // what was inferred or left out
+  ReadColumns columns;          // of a table
   JointPair joints;             // of a bag: those of the wheels
   std::string odometry;  // of a bag: the topic from whose poses the wheels were worked out, otherwise ""
 };

@@ -29,7 +29,7 @@ struct Window {
   std::size_t count = 0;
   Coordinates variance{};
   double moved = 0;  // the largest difference between the means of the halves, in its standard errors
-  double moved_m = 0;
+  double moved_m = 0, moved_rad = 0;
 };
 
 Window summary_of(const std::vector<TrackedPose>& samples, std::size_t begin, std::size_t end) {
@@ -54,7 +54,8 @@ Window summary_of(const std::vector<TrackedPose>& samples, std::size_t begin, st
   for (std::size_t k = 0; k < 6; ++k) {
     const double step = std::abs(means[1][k] - means[0][k]);
     if (step > 0) out.moved = std::max(out.moved, step / std::sqrt(4 * out.variance[k] / n + 1e-18));
-    if (k < 3) out.moved_m = std::max(out.moved_m, step);
+    double& most = k < 3 ? out.moved_m : out.moved_rad;
+    most = std::max(most, step);
   }
   return out;
 }
@@ -87,8 +88,9 @@ double stillest_spread(const std::vector<Window>& windows) {
 ///
 /// A stretch in which the tracker repeats the same numbers (invalid samples) is no rest.
 std::optional<RestNoise> find_rest_noise(const BodyTrack& track) {
-  constexpr double kMoved = 6, kSpread = 9;  // standard errors; ratio of variances
-  constexpr double kSlow_m = 5e-4;           // in half a window: 2 mm/s
+  constexpr double kMoved = 6, kSpread = 9;           // standard errors; ratio of variances
+  constexpr double kSlow_m = 5e-4, kSlow_rad = 2e-3;  // in half a window: 2 mm/s and 8 mrad/s
+  constexpr double kCertain = 10;                     // times as much is a motion, however large the noise
   const std::vector<Window> windows = windows_of(track.samples);
   if (windows.empty()) return std::nullopt;
   const double still = stillest_spread(windows);
@@ -97,8 +99,9 @@ std::optional<RestNoise> find_rest_noise(const BodyTrack& track) {
   double degrees_of_freedom = 0;
   for (const Window& window : windows) {
     const double spread = window.variance[0] + window.variance[1] + window.variance[2];
-    if (spread > kSpread * still + 1e-18 || (window.moved > kMoved && window.moved_m > kSlow_m)) continue;
-    if (window.moved_m > 10 * kSlow_m) continue;
+    const double motion = std::max(window.moved_m / kSlow_m, window.moved_rad / kSlow_rad);
+    if (spread > kSpread * still + 1e-18 || (window.moved > kMoved && motion > 1)) continue;
+    if (motion > kCertain) continue;
     out.rest_s += 1e-9 * kWindow_ns;
     const double weight = static_cast<double>(window.count - 2);
     for (std::size_t k = 0; k < 6; ++k) sums[k] += weight * window.variance[k];

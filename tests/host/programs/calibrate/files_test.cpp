@@ -347,6 +347,41 @@ TEST_F(Files, AreInspected) {
   EXPECT_THAT(unknown.err, HasSubstr("noise.bin"));
 }
 
+TEST_F(Files, AreInspectedWithTheCommandThatCalibrates) {
+  const calibration::Trajectory drive = drives(1)[0];
+  const std::string ticks = test::write_counts(at("the ticks.csv"), drive).string(),
+                    take = test::write_motive(at("take.csv"), drive).string(),
+                    bag = test::write_bag(at("bag"), drive).string();
+  test::save(at("drive.bag"), test::ros1_bag_of_counts(drive));
+  struct Case {
+    std::string file;
+    std::vector<std::pair<std::string, std::string>> filled_in;  // in place of capitals
+  };
+  const std::string sizes = "--wheel-diameter 0.084 --counts-per-turn 4096 --wheelbase 0.29";
+  for (const Case& one :
+       {Case{ticks, {{"TRUTH", take}, {"COUNTS", "4096"}}},
+        Case{take, {{"WHEELS", "'" + ticks + "'"}, {"--robot ROBOT", sizes}}}, Case{bag, {}},
+        Case{at("drive.bag"), {{"TOPIC", "/vicon/tf"}, {"COUNTS", "4096"}}}}) {
+    const Outcome inspected = astrolabe({"inspect", one.file, "--json"});
+    ASSERT_EQ(inspected.code, 0) << inspected.err;
+    std::string command = support::parse_json(inspected.out)["command"];
+    const auto fill_in = [&](const std::string& capitals, const std::string& value) {
+      for (std::size_t at = 0; (at = command.find(capitals, at)) != command.npos; at += value.size())
+        command.replace(at, capitals.size(), value);
+    };
+    for (const auto& [capitals, value] : one.filled_in) fill_in(capitals, value);
+    fill_in("--wheel-diameter METRES", "--wheel-diameter 0.084");
+    fill_in("--wheelbase METRES", "--wheelbase 0.29");
+    ASSERT_THAT(command, StartsWith("astrolabe "));
+    command.replace(0, std::string("astrolabe").size(), ASTROLABE_PROGRAM);
+    support::Program shell({"/bin/sh", "-c", command + " --json"});
+    EXPECT_EQ(shell.wait(), 0) << command << '\n' << shell.err();
+    EXPECT_NEAR(support::parse_json(shell.out())["b_m"].get<double>(), calibration::astro_drive().actual.b_m,
+                1e-3)
+        << command;
+  }
+}
+
 TEST_F(Files, InBagsOfRos1AreInspectedAndCalibratedByTheTopicsOfTheWheels) {
   test::save(at("drive.bag"), test::ros1_bag_of_counts(drives(1)[0]));
   const Outcome inspected = astrolabe({"inspect", at("drive.bag")});

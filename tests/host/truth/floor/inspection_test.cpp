@@ -48,6 +48,24 @@ TEST(Inspection, NoiseIsThatOfTheRestsAndNotOfTheDrive) {
   EXPECT_NEAR(noise->sd_rad, 2e-3, 1.6e-4);
 }
 
+TEST(Inspection, ASpinAboutTheTrackedPointIsNoRest) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal(0, 1);
+  BodyTrack track;
+  track.facts.rotation_kind = RotationKind::quaternion;
+  for (int i = 0; i < 3000; ++i) {
+    const double angle = 5e-3 * std::clamp(i - 1000, 0, 1000) + 2e-3 * normal(random);
+    track.samples.push_back({i * std::int64_t{10'000'000},
+                             {1e-4 * normal(random), 1e-4 * normal(random), 1e-4 * normal(random), 0, 0,
+                              std::sin(angle / 2), std::cos(angle / 2)},
+                             true});
+  }
+  const auto noise = inspect(track).noise;
+  ASSERT_TRUE(noise.has_value());
+  EXPECT_NEAR(noise->rest_s, 20, 1.5);
+  EXPECT_NEAR(noise->sd_rad, 2e-3, 1.6e-4);  // as above
+}
+
 TEST(Inspection, ARealTakeHasTheNoiseThatIsKnownOfIt) {
   const std::string path =
       test::shared_file("sousa_optiodom/square/231220200029/231220200029_run-01_opti.csv.gz");
