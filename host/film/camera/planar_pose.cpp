@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,8 +14,8 @@ using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 
 /// From the square's plane to the picture's, with H(2, 2) = 1.
 Matrix3d homography(const TagCorners& corners, double side_m) {
-  Eigen::Matrix<double, 8, 8> a;
-  Eigen::Matrix<double, 8, 1> b;
+  Eigen::MatrixXd a(8, 8);
+  Eigen::VectorXd b(8);
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2d p = side_m * unit_corner(i), q = corners[i];
     const auto row = static_cast<Eigen::Index>(2 * i);
@@ -24,7 +24,7 @@ Matrix3d homography(const TagCorners& corners, double side_m) {
     b[row] = q.x();
     b[row + 1] = q.y();
   }
-  const Eigen::Matrix<double, 8, 1> h = a.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd h = a.colPivHouseholderQr().solve(b);
   Matrix3d result;
   result << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1;
   return result;
@@ -33,8 +33,8 @@ Matrix3d homography(const TagCorners& corners, double side_m) {
 /// The translation for which the corners fit best, and the sum of squares that remains in the picture.
 std::pair<Vector3d, double> translation_for(const Matrix3d& rotation, const TagCorners& corners,
                                             double side_m) {
-  Eigen::Matrix<double, 8, 3> a;
-  Eigen::Matrix<double, 8, 1> b;
+  Eigen::MatrixXd a(8, 3);
+  Eigen::VectorXd b(8);
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2d flat = side_m * unit_corner(i);
     const Vector3d p = rotation * Vector3d(flat.x(), flat.y(), 0);
@@ -69,14 +69,17 @@ std::optional<std::array<PlanarPose, 2>> planar_poses(const TagCorners& corners,
   const double p = h(0, 2), q = h(1, 2);
   Matrix2d jacobian;
   jacobian << h(0, 0) - h(2, 0) * p, h(0, 1) - h(2, 1) * p, h(1, 0) - h(2, 0) * q, h(1, 1) - h(2, 1) * q;
+  const Vector3d ray = Vector3d(p, q, 1).normalized();
   const Matrix3d toward =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(p, q, 1)).toRotationMatrix();
+      Eigen::Quaterniond(1 + ray.z(), -ray.y(), ray.x(), 0).normalized().toRotationMatrix();  // turns z there
   Matrix2d b;
   b << toward(0, 0) - p * toward(2, 0), toward(0, 1) - p * toward(2, 1), toward(1, 0) - q * toward(2, 0),
       toward(1, 1) - q * toward(2, 1);
   if (!(std::abs(b.determinant()) > 1e-12) || !jacobian.allFinite()) return std::nullopt;
   const Matrix2d a = b.inverse() * jacobian;
-  const double largest = Eigen::JacobiSVD<Matrix2d>(a).singularValues()[0];
+  // Its larger singular value: the sum of the squares of both is the squared norm, their product the determinant.
+  const double sum = a.squaredNorm(), product = a.determinant();
+  const double largest = std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4 * product * product))) / 2);
   if (!(largest > 0)) return std::nullopt;
   const Matrix2d upper = a / largest;
   const Matrix2d rest = Matrix2d::Identity() - upper.transpose() * upper;
