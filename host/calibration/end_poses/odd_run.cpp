@@ -52,10 +52,13 @@ Mistakes mistakes_of(const EndPose& typed) {
   return list;
 }
 
-/// The mistake that explains the end best, if one explains it well.
+/// The mistake that explains the end best, if one explains it well. None if the other ends scatter so far that anything nearer
+/// to zero would be explained.
 std::optional<Mistake> mistake_in(const SquareEnd& end, Sense sense, const RobustFit& others,
                                   const SquareSetup& setup) {
+  constexpr double kHidesMistakes = 4;  // ends twice as far apart as slip lets them be
   std::optional<Mistake> best;
+  if (others.scatter > kHidesMistakes) return best;
   double least = bounds_of(end.measured).fits;
   for (Mistake& mistake : mistakes_of(end.measured)) {
     const double far =

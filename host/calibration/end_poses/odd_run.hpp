@@ -39,7 +39,8 @@ struct OddRun {
 /// The runs that do not fit a fit of all other runs. Those that a mistake explains come first, and otherwise the farthest
 /// first. A run is odd if a run without a mistake would be so far off only once in ten thousand.
 ///
-/// A single square is judged, too: its x, y and heading are related for any wheels and wheelbase, so a wrong sign shows at
+/// Where the other runs scatter twice as far as slip explains, no mistake is named: a robot that slips so much does not
+/// differ from a person who mistypes. A single square is judged, too: its x, y and heading are related for any wheels and wheelbase, so a wrong sign shows at
 /// once. A dropped digit may show only if there are more runs of its direction. As long as a direction has only two runs and
 /// these contradict each other, both are odd. If most runs of a direction are odd but all of them agree with each other, none
 /// of them is reported, because then an axis or the robot is wrong and not a single number.

@@ -25,6 +25,7 @@ struct EndPosesOptions {
   double side_m = 0;
   double wheelbase_m = 0;
   double c_r = 1, c_l = 1, e = 0;
+  bool keep_odd = false;
   MethodOption method;
 };
 
@@ -55,9 +56,11 @@ void refuse_mistakes(const experiment::Squares& squares) {
   for (const calibration::OddRun& odd :
        calibration::odd_runs(ends_of(squares.cw), ends_of(squares.ccw), {squares.side_m, squares.loaded}))
     if (odd.mistake)
-      throw Error(fmt::format("{}: run {} has {}. Correct it, or leave the run out",
-                              (odd.sense == Sense::cw ? squares.cw_from : squares.ccw_from)[odd.index],
-                              odd.index + 1, described(odd)));
+      throw Error(
+          fmt::format("{}: run {} has {}. Correct it, leave the run out, or keep it as it is with "
+                      "--keep-odd",
+                      (odd.sense == Sense::cw ? squares.cw_from : squares.ccw_from)[odd.index], odd.index + 1,
+                      described(odd)));
 }
 
 }  // namespace
@@ -87,6 +90,7 @@ void add_calibrate_end_poses(console::Command calibrate) {
   command.add_option("--e", options->e, "e that was loaded in the robot; it stays as it is")
       .check(console::between(-0.2, 0.2, ""))
       .capture_default_str();
+  command.add_flag("--keep-odd", options->keep_odd, "take runs as they are that seem mistyped");
   add_method(command, options->method, {"auto", "umbmark", "extended", "least-squares", "robust"},
              "auto: robust");
   add_output(command, options->output);
@@ -103,7 +107,7 @@ void add_calibrate_end_poses(console::Command calibrate) {
     read_end_poses(options->ccw, Sense::ccw, options->side_m, squares.ccw, squares.ccw_from);
     squares.side_m = options->side_m;
     squares.loaded = {options->c_r, options->c_l, options->wheelbase_m, options->e};
-    refuse_mistakes(squares);
+    if (!options->keep_odd) refuse_mistakes(squares);
     put_out(experiment::calibrate(squares, method), options->output);
   });
 }

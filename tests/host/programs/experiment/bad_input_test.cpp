@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/support/base/json.hpp"
 #include "tests/support/programs/program.hpp"
 
 // Bad input of any kind: one clear sentence that names the thing, a non-zero exit, nothing on stdout.
@@ -84,8 +85,15 @@ TEST_F(BadInput, SizesInMillimetres) {
   refuses({"drive", "line", "1200"}, {"1200 m", "1000 m", "in metres"});
 }
 TEST_F(BadInput, TenfoldTypoInOneOfFiveRuns) {
-  refuses_end_poses("ex_mm,ey_mm\n-230,-250\n-240,-260\n-2350,-255\n-225,-248\n-235,-252\n",
-                    {"cw.csv", "run 3", "x = -2350 mm", "x = -235 mm would fit", "decimal point"});
+  refuses_end_poses(
+      "ex_mm,ey_mm\n-230,-250\n-240,-260\n-2350,-255\n-225,-248\n-235,-252\n",
+      {"cw.csv", "run 3", "x = -2350 mm", "x = -235 mm would fit", "decimal point", "--keep-odd"});
+  const std::string typed =
+      file("typed.csv", "ex_mm,ey_mm\n-230,-250\n-240,-260\n-2350,-255\n-225,-248\n-235,-252\n");
+  const support::Outcome kept =
+      support::astrolabe({"calibrate", "end-poses", "--cw", typed, "--ccw", typed, "--side", "3",
+                          "--wheelbase", "0.29", "--keep-odd", "--json"});
+  EXPECT_EQ(support::parse_json(kept.out)["runs_cw"], 5) << kept.err;
   refuses_end_poses("ex_mm,ey_mm\n-230,-250\n-240,-26\n-235,-255\n-225,-248\n-235,-252\n",
                     {"cw.csv", "run 2", "y = -26 mm"});
 }
