@@ -31,6 +31,10 @@ struct Trajectory {
   double wheel_turn_m = 0;  // travel of one turn of a nominal wheel; 0: not known
   std::string session =
       {};  // runs of equal names share lever arm and clocks; empty: found from the data (sessions.hpp)
+
+  /// Whether only the poses before and after the drive were measured. They hold while the robot rests, so their times do not
+  /// matter.
+  bool has_ends_only() const { return truth.size() == 2; }
 };
 
 /// Pose of the tracked body in the robot frame (x forward, y left, origin midway between the wheels).

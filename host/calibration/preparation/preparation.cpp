@@ -79,18 +79,18 @@ void require_wheels(const Trajectory& run) {
   }
 }
 
-void require_samples(const Trajectory& run) {
+void require_samples(const Trajectory& run, bool clock_known) {
   if (run.wheels.size() < 2)
     throw Error(run.name + " has no odometry: record it again", PreparationProblem::no_odometry, {run.name});
   const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
     return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
   });
-  if (finite < kFewestSamples)
+  if (finite < kFewestSamples && !(clock_known && run.has_ends_only()))
     throw Error(fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive",
                             run.name, finite),
                 PreparationProblem::too_little_truth, {run.name, std::to_string(finite)});
   require_wheels(run);
-  require_times(run.name, "ground truth", run.truth);
+  if (!run.has_ends_only()) require_times(run.name, "ground truth", run.truth);
 }
 
 /// Travel of the centre and rotation between two moments, by roughly right factors.
@@ -199,6 +199,12 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, double wheelba
   prepared.has_headings = mostly_headings(run.truth);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
   prepared.gaps = gaps_of(run, wheelbase_m);
+  if (run.has_ends_only()) {
+    prepared.truth = run.truth;
+    prepared.truth.front().time_s = run.wheels.front().time_s + kMargin_s;
+    prepared.truth.back().time_s = run.wheels.back().time_s - kMargin_s;
+    return prepared;
+  }
   const double period_s = median_period_s(run.wheels);
   // Slightly less than the wheels' period, so that a sample that is late or early by jitter is not skipped.
   const double spacing_s = density == Density::all ? 0 : 0.9 * period_s;
@@ -260,7 +266,7 @@ void classify_motion(PreparedRun& run, std::span<const WheelState> wheels, const
 }
 
 void require_motion(const PreparedRun& run) {
-  if (run.truth.size() < kFewestSamples)
+  if (run.truth.size() < kFewestSamples && !run.source->has_ends_only())
     throw Error(
         fmt::format("{}: only {} samples of ground truth fall into the time of the drive: check that both "
                     "were recorded together",
@@ -328,7 +334,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
   PreparedRuns prepared;
   std::optional<ClockFit> before;
   for (const Trajectory& run : runs) {
-    require_samples(run);
+    require_samples(run, clock_known);
     ClockFit clock;
     if (!clock_known) {
       clock = clock_of(run, loaded, before);
@@ -346,7 +352,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
     ready.path_m = way_of_wheels(wheels);
     ready.knots_m = way_of_knots(ready, loaded.b_m);
     require_motion(ready);
-    require_handedness(ready, clock, loaded);
+    if (!run.has_ends_only()) require_handedness(ready, clock, loaded);
     prepared.runs.push_back(std::move(ready));
     prepared.clocks.push_back(clock);
   }

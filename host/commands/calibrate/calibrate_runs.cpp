@@ -87,9 +87,11 @@ constexpr Advice kCalibrateRunsAdvice[] = {
     {calibration::JudgementProblem::given_noise_is_wrong,
      ": let the noise be estimated (without --K, --sigma-xy and --sigma-theta)"},
     {calibration::PreparationProblem::too_little_truth,
-     ": choose --method robust, extended or umbmark, which use end poses alone"},
+     ": record it from the rest before the drive to the rest after it, or keep two poses, one in each rest, "
+     "in the truth of "
+     "every drive; of squares, 'astrolabe calibrate runs --method robust' uses the ends alone"},
     {experiment::AnalysisProblem::end_poses_only,
-     ": choose --method robust, extended or umbmark, which use end poses alone"},
+     ": of squares, 'astrolabe calibrate runs --method robust' uses the ends alone"},
     {calibration::PreparationProblem::nothing_in_common,
      ": check that they belong to the same drive, with 'astrolabe check-wiring' that no encoder is reversed, "
      "and in files of other programs whether each row of the wheels is the travel since the row before "

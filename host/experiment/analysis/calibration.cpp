@@ -7,6 +7,7 @@
 #include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
+#include "host/calibration/likelihood/noise_of_ends.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/files/method_names.hpp"
 
@@ -125,6 +126,8 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
     return clock_known(phase->set(), choice.clock);
   });
   ml.options.noise = choice.noise;
+  if (!choice.noise && std::ranges::all_of(runs, &calibration::Trajectory::has_ends_only))
+    ml.options.noise = calibration::noise_of_ends(runs, result.loaded, ml.options);
   ml.options.with_e = choice.with_e;
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   ml.session_names = session_names(runs, ml.estimate);
@@ -224,8 +227,9 @@ calibration::Estimate estimate_of(const Squares& squares, const calibration::Opt
 
 bool clock_known(const RunSet& set, MlChoice::Clock clock) {
   if (clock != MlChoice::Clock::automatic) return clock == MlChoice::Clock::known;
-  return std::all_of(set.runs.begin(), set.runs.end(),
-                     [](const recording::Run& run) { return run.info.truth_clock == "robot"; });
+  return std::all_of(set.runs.begin(), set.runs.end(), [](const recording::Run& run) {
+    return run.info.truth_clock == "robot" || run.truth.size() == 2;
+  });
 }
 
 std::string_view Calibration::method() const {

@@ -240,6 +240,7 @@ std::vector<recording::TruthSample> samples_of(const BodyTrack& track,
 
 FloorPath place_on_floor(const BodyTrack& track, std::span<const WheelMotion> wheels,
                          const FloorChoices& choices) {
+  if (track.samples.size() == 2) wheels = {};  // the two ends of a drive show nothing of the way between them
   FloorPath out;
   FloorFindings& findings = out.findings;
   findings.up = known_up(track, choices, findings);

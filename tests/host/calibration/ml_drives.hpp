@@ -40,4 +40,17 @@ inline std::vector<Trajectory> squares(const simulation::study::DriveModel& mode
   return runs;
 }
 
+/// Ten drives that are no squares: lines, arcs and spins both ways round, so that their ends alone show all three factors.
+inline std::vector<Trajectory> varied_drives(const simulation::study::DriveModel& model,
+                                             std::uint64_t seed = kSeed) {
+  using namespace simulation::study;
+  std::vector<Trajectory> runs;
+  for (const Course& course : {line_course(4), circle_course(1, 5), circle_course(1, -5),
+                               circle_course(0.5, 9), circle_course(0.5, -9), spin_course(20),
+                               spin_course(-20), line_course(4), circle_course(2, 3), circle_course(2, -3)})
+    runs.push_back(synthetic_drive(course, model, "run " + std::to_string(runs.size() + 1),
+                                   derived_seed(seed, runs.size())));
+  return runs;
+}
+
 }  // namespace astro::calibration

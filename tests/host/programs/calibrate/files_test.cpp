@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using support::astrolabe;
 using support::Outcome;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr int kWrongUsage = 2, kNotBetter = 3;
@@ -345,6 +346,29 @@ TEST_F(Files, AreInspected) {
   const Outcome unknown = astrolabe({"inspect", at("noise.bin")});
   EXPECT_EQ(unknown.code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("noise.bin"));
+}
+
+TEST_F(Files, OfWhichOnlyTheEndsWereMeasuredAreEnough) {
+  simulation::study::DriveModel model = calibration::astro_drive();
+  model.metres_per_count = test::kMetresPerCount;
+  std::vector<std::string> words{"calibrate", "files"};
+  for (const calibration::Trajectory& run : calibration::varied_drives(model)) {
+    const std::string stem = at("drive" + std::to_string(words.size() / 4 + 1));
+    std::ofstream ends(stem + "-ends.csv");
+    ends << "time_s,x_m,y_m,theta_rad\n";
+    for (const calibration::BodySample& end : {run.truth.front(), run.truth.back()})
+      ends << end.time_s << ',' << end.x_m << ',' << end.y_m << ',' << end.theta_rad << '\n';
+    words.insert(words.end(), {"--wheels", test::write_counts(stem + ".csv", run).string(), "--truth",
+                               stem + "-ends.csv"});
+  }
+  const Outcome outcome =
+      run(words, {"--wheel-diameter", "0.084", "--counts-per-turn", "4096", "--wheelbase", "0.29", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json found = support::parse_json(outcome.out);
+  for (const auto& [name, actual] :
+       {std::pair{"c_R", model.actual.c_r}, {"c_L", model.actual.c_l}, {"b_m", model.actual.b_m}})
+    EXPECT_NEAR(found[name].get<double>(), actual, 3 * found["standard_errors"][name].get<double>()) << name;
+  EXPECT_THAT(outcome.err, Not(HasSubstr("unit of length")));
 }
 
 TEST_F(Files, AreInspectedWithTheCommandThatCalibrates) {
