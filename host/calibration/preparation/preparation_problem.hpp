@@ -3,18 +3,21 @@
 namespace astro::calibration {
 
 /// Why a run cannot be used. Values: its name, if there is one; then the stream (times_missing,
-/// times_run_backwards, times_jump), the number of samples (too_little_truth), or how many gaps there are and their seconds
-/// (odometry_bridged).
+/// times_run_backwards, times_jump), the number of samples (too_little_truth, too_little_odometry, hardly_overlap), how many
+/// gaps there are and their seconds (odometry_bridged), or the seconds from sample to sample (odometry_seldom).
 enum class PreparationProblem {
   no_runs,
   no_odometry,
   too_little_truth,
+  too_little_odometry,
   times_missing,
   times_run_backwards,
   times_jump,
   odometry_not_finite,
   odometry_lost,
   odometry_bridged,
+  odometry_seldom,
+  hardly_overlap,
   too_short,
   mirrored,
   mirrored_or_clockwise,

@@ -11,8 +11,9 @@ struct MotionExtent {
   double distance_m = 0, rotation_rad = 0;
 };
 
-/// A stretch without odometry in which the robot moved. How far its wheels turned is known from the counts before and after,
-/// and so is the heading after it, but not the way between. No truth sample within it is used.
+/// A stretch without odometry in which the robot moved: samples were lost, or are so seldom that it turned between two. How far
+/// its wheels turned is known from the counts before and after, and so is the heading after it, but not the way between. No
+/// truth sample within it is used.
 struct WheelGap {
   double begin_s = 0, end_s = 0;  // on the robot's clock
   double unknown_m2 = 0;          // variance of each coordinate of the position after it

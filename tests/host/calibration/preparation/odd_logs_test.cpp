@@ -97,6 +97,13 @@ TEST(OddLogs, BridgedGapsAreSaid) {
                                                testing::StartsWith("1."))));
 }
 
+TEST(OddLogs, ThatAreTooSeldomToShowTheTurnsAreSaidToBe) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 2);
+  for (Trajectory& run : runs) keep_every(run, 100);
+  EXPECT_THAT(remarks(estimate_ml(runs, astro_drive().loaded), false),
+              testing::Contains(support::Tells(PreparationProblem::odometry_seldom, "run 1", "1")));
+}
+
 TEST(OddLogs, AtLowRatesAreUsedWhereTheWheelsAreKnown) {
   const double period_s =
       squares(astro_drive(), 1)[0].wheels[1].time_s - squares(astro_drive(), 1)[0].wheels[0].time_s;
@@ -107,6 +114,23 @@ TEST(OddLogs, AtLowRatesAreUsedWhereTheWheelsAreKnown) {
     EXPECT_LT(misses.largest, kMost) << slow_s;
     EXPECT_LT(misses.mean_square(), kMostMeanSquare) << slow_s;
   }
+}
+
+// On a turn the way between two samples a second apart is not known, only where the robot heads after it.
+TEST(OddLogs, OfOneHertzAndLessHaveTheErrorThatIsDue) {
+  const double period_s =
+      squares(astro_drive(), 1)[0].wheels[1].time_s - squares(astro_drive(), 1)[0].wheels[0].time_s;
+  for (const double slow_s : {0.7, 1.0, 1.5})
+    for (const std::size_t one_of : {1U, 6U}) {  // truth at 60 Hz and at 10 Hz
+      const auto n = static_cast<std::size_t>(std::lround(slow_s / period_s));
+      const Misses misses = misses_of(astro_drive(), [&](Trajectory& run, std::mt19937_64&) {
+        keep_every(run, n);
+        std::size_t i = 0;
+        std::erase_if(run.truth, [&](const BodySample&) { return i++ % one_of != 0; });
+      });
+      EXPECT_LT(misses.largest, kMost) << slow_s << " s, one pose of " << one_of;
+      EXPECT_LT(misses.mean_square(), kMostMeanSquare) << slow_s << " s, one pose of " << one_of;
+    }
 }
 
 TEST(OddLogs, OfCoarseEncodersHaveTheErrorThatIsDue) {
