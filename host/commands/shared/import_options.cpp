@@ -154,6 +154,8 @@ constexpr Advice kImportAdvice[] = {
      "..._m, "
      "..._rad_s, ..._rpm, ..._m_s; - for one that is not used)"},
     {importing::WheelTableProblem::time_unit_unknown, ": say it with --wheel-columns"},
+    {importing::WheelTableProblem::times_too_coarse, ": write the times with more digits"},
+    {truth::TrackProblem::times_too_coarse, ": write the times with more digits"},
     {importing::CounterProblem::range_unknown, ": give the range with --counter-range"},
     {importing::CounterProblem::beyond_range, ": give another --counter-range"},
     {tables::StatedColumnsProblem::no_such_name, ": name columns that it has, or all of them in their order"},

@@ -1,14 +1,17 @@
 #include "host/formats/tables/time_column.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "host/base/order_statistics.hpp"
 #include "host/formats/tables/column_name.hpp"
 
 namespace astro::tables {
 namespace {
 
 constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+constexpr int kSeconds = 9;  // power of ten, to nanoseconds
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -33,7 +36,8 @@ std::optional<TimeName> time_name(std::string_view text) {
   if (!name.unit && !name.unit_text.empty()) return std::nullopt;
   const auto says_time = [](const std::string& word) {
     return word == "time" || word == "timestamp" || word == "stamp" || word == "t" || word == "times" ||
-           word == "elapsed" || word == "datetime" || word == "timestamps";
+           word == "elapsed" || word == "datetime" || word == "timestamps" || word == "tv" ||
+           word == "epoch" || word == "clock" || word == "unix";
   };
   if (!says_time(name.words.front()) && !says_time(name.words.back())) return std::nullopt;
   return TimeName{joined(name.words), name.unit ? ns_power(name.unit_text) : std::nullopt};
@@ -46,25 +50,56 @@ bool TimeColumns::take(std::size_t column, const TimeName& name) {
     power = name.power;
     return true;
   }
-  if (nanoseconds || name.stem != stem) return false;
-  if (power == 9 && name.power == 0) {
-    nanoseconds = column;
+  if (fraction || (name.stem != stem && !name.stem.empty() && !stem.empty())) return false;
+  const auto seconds = [](const std::optional<int>& one) { return !one || *one == kSeconds; };
+  if (seconds(power) && name.power && *name.power < kSeconds) {
+    fraction = column;
+    fraction_power = *name.power;
     return true;
   }
-  if (power == 0 && name.power == 9) {
-    nanoseconds = at;
+  if (power && *power < kSeconds && seconds(name.power)) {
+    fraction = at;
+    fraction_power = *power;
     at = column;
-    power = 9;
+    power = name.power;
     return true;
   }
   return false;
 }
 
+void TimeColumns::settle(Table& table) {
+  if (!fraction) return;
+  const double whole_second = std::pow(10, kSeconds - fraction_power);
+  bool whole = true, fractions = true, any = false, written = false;
+  table.rewind();
+  while (whole && table.next()) {
+    const std::string_view cell = table.cell(*at);
+    const auto part = cell_number(table.cell(*fraction), table.separator());
+    const auto value = cell_number(cell, table.separator());
+    written = !value && written_time(cell);
+    if (!part || (!value && !written)) continue;
+    any = true;
+    whole = value ? *value == std::floor(*value) : cell.find_first_of(".,") == std::string_view::npos;
+    fractions = fractions && *part >= 0 && *part < whole_second;
+  }
+  table.rewind();
+  if (any && whole && fractions) {
+    if (!written) power = kSeconds;
+    return;
+  }
+  if (any && whole && !written) {
+    at = fraction;
+    power = fraction_power;
+  }
+  fraction.reset();
+}
+
 std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns) {
   constexpr std::size_t kRowsLookedAt = 400;
   if (columns.power) return TimeFormat{TimeKind::number, *columns.power};
-  std::vector<double> times;
+  std::vector<double> times;  // without repeated ones: whole seconds may have hundreds of rows in each
   double first = 0, last = 0;
+  bool several = false;
   table.rewind();
   while (table.next()) {
     const std::string_view cell = table.cell(*columns.at);
@@ -75,20 +110,22 @@ std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns) 
     const auto value = cell_number(cell, table.separator());
     if (!value) continue;
     if (times.empty()) first = *value;
+    several = several || !times.empty();
     last = *value;
-    if (times.size() < kRowsLookedAt) times.push_back(*value);
+    if (times.size() < kRowsLookedAt && (times.empty() || *value != times.back())) times.push_back(*value);
   }
   table.rewind();
+  if (several && times.size() == 1) return std::nullopt;
   const auto power = power_found(times, last - first);
   if (!power) return std::nullopt;
   return TimeFormat{TimeKind::number, *power};
 }
 
-std::optional<std::int64_t> TimeReader::read(std::string_view cell, std::string_view nanoseconds) {
+std::optional<std::int64_t> TimeReader::read(std::string_view cell, std::string_view fraction) {
   auto time = time_ns(cell, format_, separator_);
   if (!time) return std::nullopt;
-  if (columns_.nanoseconds) {
-    const auto more = exact_ns(nanoseconds, 0, separator_);
+  if (columns_.fraction) {
+    const auto more = exact_ns(fraction, columns_.fraction_power, separator_);
     if (!more) return std::nullopt;
     *time += *more;
   }
@@ -104,7 +141,55 @@ std::optional<std::int64_t> TimeReader::read(std::string_view cell, std::string_
 
 std::optional<std::int64_t> TimeReader::read(const Table& table) {
   return read(table.cell(*columns_.at),
-              columns_.nanoseconds ? table.cell(*columns_.nanoseconds) : std::string_view());
+              columns_.fraction ? table.cell(*columns_.fraction) : std::string_view());
+}
+
+void RepeatedTimes::take(bool repeats, bool changed) {
+  rows_ += repeats ? 1 : 0;
+  changed_ += changed ? 1 : 0;
+  changed_rows_ += repeats && changed ? 1 : 0;
+}
+
+bool RepeatedTimes::are_few() const {
+  constexpr std::size_t kFew = 5, kOneOf = 10;
+  return changed_rows_ <= std::max(kFew, changed_ / kOneOf);
+}
+
+std::string RepeatedTimes::percent() const {
+  return std::to_string(changed_ == 0 ? 0 : (100 * changed_rows_ + changed_ / 2) / changed_);
+}
+
+std::optional<SpreadTimes> spread_times(std::vector<std::int64_t> times_ns) {
+  constexpr std::size_t kFewestTimes = 5;
+  constexpr double kPart = 0.2, kNearlyAll = 0.9, kLeast_ns = 1000;
+  std::vector<std::size_t> begins;  // of the rows with one time
+  for (std::size_t i = 0; i < times_ns.size(); ++i)
+    if (i == 0 || times_ns[i] != times_ns[i - 1]) begins.push_back(i);
+  if (begins.size() < kFewestTimes) return std::nullopt;
+  const std::size_t last = begins.size() - 1;
+  std::vector<std::int64_t> steps_ns;
+  for (std::size_t i = 0; i < last; ++i) steps_ns.push_back(times_ns[begins[i + 1]] - times_ns[begins[i]]);
+  const auto step_ns = static_cast<double>(median_of(std::vector(steps_ns)));
+  const double usual = static_cast<double>(begins[last] - begins[1]) / static_cast<double>(last - 1);
+  if (step_ns < kLeast_ns * usual) return std::nullopt;
+  std::size_t even = 0;
+  for (std::size_t i = 1; i < last; ++i)
+    even += std::abs(static_cast<double>(begins[i + 1] - begins[i]) - usual) <= std::max(1.0, kPart * usual);
+  if (static_cast<double>(even) < kNearlyAll * static_cast<double>(last - 1)) return std::nullopt;
+  begins.push_back(times_ns.size());
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double width_ns = i == last ? step_ns : std::min(step_ns, static_cast<double>(steps_ns[i]));
+    const auto rows = static_cast<double>(begins[i + 1] - begins[i]);
+    const double places = i == 0 || i == last ? std::max(rows, usual) : rows;
+    const double skipped = i == 0 ? places - rows : 0;
+    const std::int64_t from_ns = times_ns[begins[i]];
+    for (std::size_t row = begins[i]; row < begins[i + 1]; ++row) {
+      const double place = skipped + static_cast<double>(row - begins[i]) + 0.5;
+      const std::int64_t at_ns = from_ns + std::llround(width_ns * place / places);
+      times_ns[row] = row == 0 ? at_ns : std::max(at_ns, times_ns[row - 1] + 1);
+    }
+  }
+  return SpreadTimes{std::move(times_ns), 1e-9 * step_ns, usual};
 }
 
 }  // namespace astro::tables

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/formats/tables/table.hpp"
 #include "host/formats/tables/times.hpp"
@@ -21,18 +22,22 @@ struct TimeName {
 /// Nothing if the name is not one of times: "time_s", "Timestamp (ms)", "stamp.sec", "millis", "__time", "t".
 std::optional<TimeName> time_name(std::string_view text);
 
-/// Where the times are. Whole seconds and nanoseconds may stand in two columns.
+/// Where the times are. Whole seconds, dates or times of day, and the fraction of a second, may stand in two columns.
 struct TimeColumns {
-  std::optional<std::size_t> at, nanoseconds;
+  std::optional<std::size_t> at, fraction;
   std::string stem;
   std::optional<int> power;  // stated by the name
+  int fraction_power = 0;
 
   /// Takes the column of this name. False if it is another time than that which was taken before.
   bool take(std::size_t column, const TimeName& name);
+  /// Drops `fraction` unless it holds fractions of the whole seconds that the other column holds. If both are whole times, the
+  /// finer one stays. Leaves the table before its first row.
+  void settle(Table& table);
 };
 
 /// The format of the times, from their names or, if these state no unit, from the rows. Nothing if neither shows it.
-/// Precondition: `columns.at`. Leaves the table before its first row.
+/// Precondition: `columns` has been settled. Leaves the table before its first row.
 std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns);
 
 /// Reads the times of successive rows. Times of day go on after midnight.
@@ -42,7 +47,7 @@ class TimeReader {
       : columns_(columns), format_(format), separator_(separator) {}
 
   /// Nothing if the cell is no time of the format.
-  std::optional<std::int64_t> read(std::string_view cell, std::string_view nanoseconds = {});
+  std::optional<std::int64_t> read(std::string_view cell, std::string_view fraction = {});
   std::optional<std::int64_t> read(const Table& table);
 
  private:
@@ -52,5 +57,31 @@ class TimeReader {
   std::int64_t days_ns_ = 0;
   std::optional<std::int64_t> last_;
 };
+
+/// Rows that repeat the time of the row above: copies, or rows whose times have too few digits.
+class RepeatedTimes {
+ public:
+  /// A row after the first. `changed`: it has other values than the row above.
+  void take(bool repeats, bool changed);
+  std::size_t rows() const { return rows_; }
+  /// Whether the others are enough: hardly any repeated time is that of a row with new values.
+  bool are_few() const;
+  /// The part of the rows with new values that repeat a time, in whole percent.
+  std::string percent() const;
+
+ private:
+  std::size_t rows_ = 0, changed_ = 0, changed_rows_ = 0;
+};
+
+/// Times of rows that were written with too few digits, as whole seconds with fifty rows in each, and are spread.
+struct SpreadTimes {
+  std::vector<std::int64_t> times_ns;  // strictly increasing
+  double step_s = 0, rows_in_step = 0;
+};
+
+/// Spreads the rows of each time evenly until the next one. The rows of the first time come at the end of it and those of the
+/// last at its beginning, because the recording began and ended within them. Nothing unless nearly all times between have the
+/// same number of rows, give or take a fifth or one. `times_ns` must not decrease.
+std::optional<SpreadTimes> spread_times(std::vector<std::int64_t> times_ns);
 
 }  // namespace astro::tables

@@ -99,6 +99,7 @@ class WheelRows {
 
   WheelTrack read() {
     while (table_.next()) row();
+    if (repeated_.rows() > 0) settle_repeated();
     if (pairs_.front().size() < 2)
       refuse_line("the table ends with fewer than two rows of wheels", WheelTableProblem::too_few_rows);
     WheelTrack track;
@@ -136,6 +137,7 @@ class WheelRows {
   }
 
   tables::TimeFormat format() {
+    columns_.time.settle(table_);
     const std::size_t at = *columns_.time.at;
     const auto found = tables::time_format(table_, columns_.time);
     if (!found) {
@@ -203,11 +205,11 @@ class WheelRows {
     const Wheels& first = pairs_.front();
     if (!first.empty() && *time_ns < first.back().time_ns)
       refuse_line("the time is before that of the row above: sort the rows", WheelTableProblem::times_fall);
-    const bool repeated = !first.empty() && *time_ns == first.back().time_ns;
-    if (repeated) ++repeated_;
-    if (!repeated && first.size() >= most_rows_)
+    const bool repeats = !first.empty() && *time_ns == first.back().time_ns;
+    if (first.size() >= most_rows_)
       refuse_line("the table has more rows than can be held: split it into one file for each run",
                   WheelTableProblem::too_many_rows);
+    bool changed = false;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       Wheels& samples = pairs_[i];
       WheelSample sample{*time_ns, value(columns_.left[i]), value(columns_.right[i])};
@@ -215,11 +217,53 @@ class WheelRows {
         sample.left += samples.back().left;
         sample.right += samples.back().right;
       }
-      if (!repeated)
-        samples.push_back(sample);
-      else if (columns_.per_interval)
-        samples.back() = sample;
+      changed = changed || (!samples.empty() &&
+                            (sample.left != samples.back().left || sample.right != samples.back().right));
+      samples.push_back(sample);
     }
+    repeated_.take(repeats, changed);
+  }
+
+  /// Leaves rows out that repeat the time of the row above, or spreads them if they are many.
+  void settle_repeated() {
+    if (repeated_.are_few()) {
+      for (Wheels& pair : pairs_) leave_out_repeated(pair);
+      said_of_times_ = {name_ + " has " + std::to_string(repeated_.rows()) +
+                            " rows that repeat the time of the row above; they were left out",
+                        WheelTableProblem::times_repeated,
+                        {name_, std::to_string(repeated_.rows())}};
+      return;
+    }
+    std::vector<std::int64_t> times_ns;
+    for (const WheelSample& sample : pairs_.front()) times_ns.push_back(sample.time_ns);
+    const auto spread = tables::spread_times(std::move(times_ns));
+    if (!spread)
+      throw Error(
+          fmt::format("{}: {} % of the rows with new values repeat the time of the row above, and not "
+                      "evenly, so that their times are not known",
+                      name_, repeated_.percent()),
+          WheelTableProblem::times_too_coarse, {name_, repeated_.percent()});
+    for (Wheels& pair : pairs_)
+      for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = spread->times_ns[i];
+    const std::string rows = fmt::format("{:.3g}", spread->rows_in_step),
+                      step_s = fmt::format("{:.3g}", spread->step_s);
+    said_of_times_ = {
+        fmt::format("{} has {} rows of each time, which are {} s apart; they were spread evenly in between",
+                    name_, rows, step_s),
+        WheelTableProblem::times_spread,
+        {name_, rows, step_s}};
+  }
+
+  /// Of travel per interval the last row of a time holds that of the others, too.
+  void leave_out_repeated(Wheels& samples) const {
+    std::size_t kept = 0;
+    for (const WheelSample& sample : samples) {
+      if (kept == 0 || sample.time_ns != samples[kept - 1].time_ns)
+        samples[kept++] = sample;
+      else if (columns_.per_interval)
+        samples[kept - 1] = sample;
+    }
+    samples.resize(kept);
   }
 
   WheelTrack track_of(std::vector<WheelSample> samples) const {
@@ -244,11 +288,7 @@ class WheelRows {
           {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out",
            WheelTableProblem::rows_incomplete,
            {name_, std::to_string(incomplete_)}});
-    if (repeated_ > 0)
-      remarks.push_back(
-          {name_ + " has " + std::to_string(repeated_) + " rows that repeat the time of the row above",
-           WheelTableProblem::times_repeated,
-           {name_, std::to_string(repeated_)}});
+    if (said_of_times_) remarks.push_back(*said_of_times_);
   }
 
   void refuse_lost_rows(std::span<const WheelSample> samples) const {
@@ -273,7 +313,9 @@ class WheelRows {
   WheelColumns columns_;
   tables::TimeReader times_;
   std::vector<Wheels> pairs_;
-  std::size_t most_rows_ = 0, incomplete_ = 0, repeated_ = 0;
+  std::size_t most_rows_ = 0, incomplete_ = 0;
+  tables::RepeatedTimes repeated_;
+  std::optional<Remark> said_of_times_;  // if rows repeat the time of the row above
 };
 
 }  // namespace

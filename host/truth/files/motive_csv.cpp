@@ -165,6 +165,7 @@ BodyTrack read_motive(std::string_view text, std::string_view file, std::string_
     builder.add(sample, rows);
   }
   add_remarks(header, times, track.facts);
+  builder.finish(file);
   return track;
 }
 

@@ -173,7 +173,6 @@ void settle_columns(PlainHeader& header, const tables::TimeColumns& time, char s
   columns.separator = separator;
   if (!header.time.at) header.time = time;
   columns[Slot::time] = header.time.at ? static_cast<int>(*header.time.at) : -1;
-  columns[Slot::nanoseconds] = header.time.nanoseconds ? static_cast<int>(*header.time.nanoseconds) : -1;
   constexpr std::array kParts{Slot::rx, Slot::ry, Slot::rz, Slot::rw};
   const auto all = [&](const auto& slots) {
     return std::all_of(slots.begin(), slots.end(), [&](Slot slot) { return columns[slot] >= 0; });
@@ -387,7 +386,10 @@ void settle_angles(Table& table, PlainHeader& header, TrackFacts& facts) {
 }
 
 /// Throws astro::Error if the table does not show in which unit its times are.
-tables::TimeFormat settle_times(Table& table, const PlainHeader& header, TrackFacts& facts) {
+tables::TimeFormat settle_times(Table& table, PlainHeader& header, TrackFacts& facts) {
+  header.time.settle(table);
+  header.columns[Slot::time] = static_cast<int>(*header.time.at);
+  header.columns[Slot::time_fraction] = header.time.fraction ? static_cast<int>(*header.time.fraction) : -1;
   const auto format = tables::time_format(table, header.time);
   if (!format) {
     if (table.next())
@@ -435,7 +437,7 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
   while (table.next()) {
     if (!bodies.tags.empty() && table.cell(static_cast<std::size_t>(bodies.tag)) != track.name) continue;
     row.read(table.rows());
-    const auto time_ns = times.read(row.time(), row.nanoseconds());
+    const auto time_ns = times.read(row.time(), row.time_fraction());
     if (!time_ns)
       table.rows().refuse(header.columns[Slot::time] + 1, tables::shown_cell(row.time()) + " is no time",
                           TrackProblem::no_time, {tables::cut_cell(row.time())});
@@ -443,7 +445,7 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
     sample.time_ns = *time_ns;
     builder.add(sample, table.rows());
   }
-  if (builder.repeated_times() > 0) track.facts.remarks.push_back(repeated_times(builder));
+  builder.finish(plain.file);
   return track;
 }
 

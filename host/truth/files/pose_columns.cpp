@@ -1,5 +1,7 @@
 #include "host/truth/files/pose_columns.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -101,26 +103,47 @@ TrackBuilder::TrackBuilder(BodyTrack& track, std::string_view text) : track_(tra
 }
 
 void TrackBuilder::add(const TrackedPose& sample, const tables::Rows& rows) {
-  if (!track_.samples.empty()) {
-    const std::int64_t before = track_.samples.back().time_ns;
-    if (sample.time_ns == before) {
-      ++repeated_times_;
-      return;
-    }
-    if (sample.time_ns < before)
-      rows.refuse("the time is before that of the row above: sort the rows",
-                  TrackProblem::time_not_increasing);
-  }
   if (track_.samples.size() >= most_)
     rows.refuse("the file has more rows than can be held: split it into one file for each run");
+  if (!track_.samples.empty()) {
+    const TrackedPose& before = track_.samples.back();
+    if (sample.time_ns < before.time_ns)
+      rows.refuse("the time is before that of the row above: sort the rows",
+                  TrackProblem::time_not_increasing);
+    repeated_.take(sample.time_ns == before.time_ns, sample.pose != before.pose);
+  }
   track_.samples.push_back(sample);
 }
 
-Remark repeated_times(const TrackBuilder& builder) {
-  const std::string rows = std::to_string(builder.repeated_times());
-  return {"rows left out because they have the time of the row before: " + rows,
-          TrackRemark::times_repeated,
-          {rows}};
+void TrackBuilder::finish(std::string_view file) {
+  if (repeated_.rows() == 0) return;
+  if (repeated_.are_few()) {
+    const auto same = [](const TrackedPose& a, const TrackedPose& b) { return a.time_ns == b.time_ns; };
+    track_.samples.erase(std::unique(track_.samples.begin(), track_.samples.end(), same),
+                         track_.samples.end());
+    const std::string rows = std::to_string(repeated_.rows());
+    track_.facts.remarks.push_back({"rows left out because they have the time of the row before: " + rows,
+                                    TrackRemark::times_repeated,
+                                    {rows}});
+    return;
+  }
+  std::vector<std::int64_t> times_ns;
+  for (const TrackedPose& sample : track_.samples) times_ns.push_back(sample.time_ns);
+  const auto spread = tables::spread_times(std::move(times_ns));
+  if (!spread)
+    throw Error(fmt::format("'{}': {} % of the poses repeat the time of the one before, and not evenly, so "
+                            "that their times are not known",
+                            file, repeated_.percent()),
+                TrackProblem::times_too_coarse, {std::string(file), repeated_.percent()});
+  for (std::size_t i = 0; i < track_.samples.size(); ++i) track_.samples[i].time_ns = spread->times_ns[i];
+  const std::string rows = fmt::format("{:.3g}", spread->rows_in_step),
+                    step_s = fmt::format("{:.3g}", spread->step_s);
+  track_.facts.remarks.push_back(
+      {fmt::format(
+           "there are {} poses of each time, which are {} s apart; they were spread evenly in between", rows,
+           step_s),
+       TrackRemark::times_spread,
+       {rows, step_s}});
 }
 
 }  // namespace astro::truth

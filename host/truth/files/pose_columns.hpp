@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/formats/tables/rows.hpp"
+#include "host/formats/tables/time_column.hpp"
 #include "host/truth/files/body_track.hpp"
 #include "host/truth/files/track_problem.hpp"
 
@@ -13,7 +14,7 @@
 namespace astro::truth {
 
 /// What a column can hold. The first three are kept as text, the others are numbers.
-enum class Slot : std::uint8_t { frame, time, nanoseconds, x, y, z, rx, ry, rz, rw, heading, roll, pitch };
+enum class Slot : std::uint8_t { frame, time, time_fraction, x, y, z, rx, ry, rz, rw, heading, roll, pitch };
 inline constexpr std::size_t kSlots = 13, kTextSlots = 3;
 
 struct PoseColumns {
@@ -41,7 +42,7 @@ class PoseRow {
 
   std::string_view frame() const { return text_[0]; }
   std::string_view time() const { return text_[1]; }
-  std::string_view nanoseconds() const { return text_[2]; }
+  std::string_view time_fraction() const { return text_[2]; }
 
   /// The pose in SI units with a quaternion of length 1, or an invalid one if a cell is empty or no body can
   /// have this pose (zeros for a lost body). A rotation vector stays as it is in qx, qy and qz, with qw = 0,
@@ -64,18 +65,17 @@ class TrackBuilder {
  public:
   TrackBuilder(BodyTrack& track, std::string_view text);
 
-  /// Throws astro::Error with file and line if the time does not increase (a repeated time is dropped and
-  /// counted), or if there are more samples than can be held.
+  /// Throws astro::Error with file and line if the time falls, or if there are more samples than can be held.
   void add(const TrackedPose& sample, const tables::Rows& rows);
-  std::int64_t repeated_times() const { return repeated_times_; }
+
+  /// Leaves samples out that repeat the time of the one before, or spreads them evenly if they are many because the times have
+  /// too few digits, with a remark. Throws astro::Error naming `file` if they are many, and not even.
+  void finish(std::string_view file);
 
  private:
   BodyTrack& track_;
   std::size_t most_;
-  std::int64_t repeated_times_ = 0;
+  tables::RepeatedTimes repeated_;
 };
-
-/// The remark that rows were left out. Precondition: builder.repeated_times() > 0.
-Remark repeated_times(const TrackBuilder& builder);
 
 }  // namespace astro::truth

@@ -166,6 +166,7 @@ BodyTrack read_qualisys(std::string_view text, std::string_view file, std::strin
     builder.add(sample, rows);
   } while (rows.next());  // a row of nothing but tabs is a frame in which all bodies were lost
   track.facts.dropped_frames = frames.dropped();
+  builder.finish(file);
   return track;
 }
 

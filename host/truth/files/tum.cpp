@@ -82,7 +82,7 @@ BodyTrack read_tum(std::string_view text, std::string_view file) {
     sample.time_ns = *time_ns;
     builder.add(sample, rows);
   } while (rows.next_filled());
-  if (builder.repeated_times() > 0) facts.remarks.push_back(repeated_times(builder));
+  builder.finish(file);
   return track;
 }
 

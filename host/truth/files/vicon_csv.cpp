@@ -79,6 +79,7 @@ BodyTrack read_vicon_body(std::string_view text, std::string_view file, const Vi
     builder.add(sample, rows);
   }
   track.facts.dropped_frames = frames.dropped();
+  builder.finish(file);
   if (between > 0)
     track.facts.remarks.push_back({std::to_string(between) + " rows of sub-frames were passed over"});
   return track;

@@ -157,19 +157,54 @@ TEST(Times, TheUnitOfBareNumbersFollowsFromTheirSizeOrSpacing) {
   EXPECT_EQ(power(0, 0, 10), std::nullopt);
 }
 
-TEST(Times, SecondsAndNanosecondsMayStandInTwoColumns) {
+/// The times of all rows of a table, or those up to the first that is none.
+std::vector<std::int64_t> times_in(std::string_view text) {
+  Table table(text, "t.csv");
+  TimeColumns columns;
+  for (std::size_t i = 0; i < table.names().size(); ++i)
+    if (const auto name = time_name(table.names()[i])) columns.take(i, *name);
+  columns.settle(table);
+  const auto format = time_format(table, columns);
+  if (!format) return {};
+  TimeReader reader(columns, *format, table.separator());
+  std::vector<std::int64_t> times;
+  while (table.next())
+    if (const auto time = reader.read(table)) times.push_back(*time);
+  return times;
+}
+
+TEST(Times, SecondsAndTheirFractionMayStandInTwoColumns) {
   for (const char* text :
        {"stamp.sec,stamp.nanosec,x\n5,250000000,1\n", "stamp_nsec,stamp_sec,x\n250000000,5,1\n",
-        "header.stamp.secs,header.stamp.nsecs,x\n5,250000000,1\n", "sec,nanosec,x\n5,250000000,1\n"}) {
-    Table table(text, "t.csv");
-    TimeColumns columns;
-    for (std::size_t i = 0; i < table.names().size(); ++i)
-      if (const auto name = time_name(table.names()[i])) columns.take(i, *name);
-    ASSERT_TRUE(columns.nanoseconds) << text;
-    TimeReader reader(columns, time_format(table, columns).value(), table.separator());
-    ASSERT_TRUE(table.next());
-    EXPECT_EQ(reader.read(table), 5'250'000'000) << text;
+        "header.stamp.secs,header.stamp.nsecs,x\n5,250000000,1\n", "sec,nanosec,x\n5,250000000,1\n",
+        "sec,msec,x\n5,250,1\n", "tv_sec,tv_usec,x\n5,250000,1\n", "us,s_time,x\n250000,5,1\n",
+        "time_s,ms,x\n5,250,1\n", "timestamp,usec,x\n5,250000,1\n"})
+    EXPECT_THAT(times_in(text), ElementsAre(5'250'000'000)) << text;
+  EXPECT_THAT(times_in("time;ms;x\n12:00:05;250;1\n"), ElementsAre(43'205'250'000'000));
+}
+
+TEST(Times, TwoWholeTimesAreNoSecondsAndTheirFraction) {
+  EXPECT_THAT(times_in("time_s,time_ms,x\n5.25,5250,1\n6.25,6250,1\n"),
+              ElementsAre(5'250'000'000, 6'250'000'000));
+  EXPECT_THAT(times_in("sec,msec,x\n5,5250,1\n6,6250,1\n"), ElementsAre(5'250'000'000, 6'250'000'000))
+      << "the finer one";
+}
+
+TEST(Times, OfSeveralRowsAreSpreadWhereTheyAreEven) {
+  std::vector<std::int64_t> seconds, uneven;
+  for (std::int64_t row = 7; row < 95; ++row) seconds.push_back(row / 10 * 1'000'000'000);
+  for (std::int64_t row = 0; row < 95; ++row)
+    uneven.push_back((row < 40 ? row / 20 : row / 5 - 6) * 1'000'000'000);
+  const auto spread = spread_times(seconds);
+  ASSERT_TRUE(spread);
+  EXPECT_EQ(spread->step_s, 1);
+  EXPECT_EQ(spread->rows_in_step, 10);
+  for (std::int64_t row = 7; row < 95; ++row) {
+    const std::int64_t at_ns = spread->times_ns[static_cast<std::size_t>(row - 7)];
+    EXPECT_EQ(at_ns, 50'000'000 + row * 100'000'000) << row;
   }
+  EXPECT_FALSE(spread_times(uneven)) << "twenty rows in one second, five in another";
+  EXPECT_FALSE(spread_times({1, 1, 1, 2, 2, 2})) << "too few to tell";
 }
 
 TEST(Times, TimesOfDayGoOnAfterMidnight) {

@@ -115,6 +115,13 @@ std::string counts_around(const Trajectory& run, double range) {
   });
 }
 
+/// Counts whose times are written as `written` says.
+std::string counts_at(const Trajectory& run, const char* time, const std::function<double(double)>& written) {
+  return rows(fmt::format("{},left_counts,right_counts\n", time), run.wheels, [&](const WheelsAt& at) {
+    return fmt::format("{},{},{}", written(at.time_s), Robot::counts(at.left_m), Robot::counts(at.right_m));
+  });
+}
+
 std::string clock_time(double time_s) {
   const double of_day = std::fmod(time_s, 86'400);
   const int minutes = static_cast<int>(of_day / 60);
@@ -276,6 +283,57 @@ std::vector<OddKind> odd_kinds() {
                                           Robot::counts(at.left_m), Robot::counts(at.right_m));
                      });
        })},
+      {"seconds and milliseconds apart", wheels([](auto& run) {
+         return rows("sec,msec,left_encoder,right_encoder\n", run.wheels, [](auto& at) {
+           const long long ms = 1'700'000'000'000 + std::llround(1e3 * at.time_s);
+           return fmt::format("{},{},{},{}", ms / 1000, ms % 1000, Robot::counts(at.left_m),
+                              Robot::counts(at.right_m));
+         });
+       })},
+      {"seconds and microseconds apart", wheels([](auto& run) {
+         return rows("tv_usec,left_encoder,right_encoder,tv_sec\n", run.wheels, [](auto& at) {
+           const long long us = 1'700'000'000'000'000 + std::llround(1e6 * at.time_s);
+           return fmt::format("{},{},{},{}", us % 1'000'000, Robot::counts(at.left_m),
+                              Robot::counts(at.right_m), us / 1'000'000);
+         });
+       })},
+      {"whole seconds with a hundred rows in each",
+       wheels([=](auto& run) { return counts_at(run, "time", [](double t) { return std::floor(t); }); })},
+      {"tenths of a second with ten rows in each", wheels([=](auto& run) {
+         return counts_at(run, "time_s", [](double t) { return std::floor(10 * t) / 10; });
+       })},
+      {"dates of whole seconds", wheels([](auto& run) {
+         return rows("stamp,left_counts,right_counts\n", run.wheels, [](auto& at) {
+           return fmt::format("2024-05-01 {},{},{}", clock_time(36'000 + at.time_s).substr(0, 8),
+                              Robot::counts(at.left_m), Robot::counts(at.right_m));
+         });
+       })},
+      {"whole seconds with many or few rows in each",
+       wheels([=](auto& run) {
+         std::mt19937_64 random(7);
+         Trajectory lossy = run;
+         bool lost = false;
+         std::size_t i = 0;
+         std::erase_if(lossy.wheels, [&](const WheelsAt&) {
+           if (i++ % 40 == 0) lost = random() % 2 == 0;
+           return lost;
+         });
+         return counts_at(lossy, "time", [](double t) { return std::floor(t); });
+       }),
+       {WheelTableProblem::times_too_coarse}},
+      {"each row twice", wheels([](auto& run) {
+         return rows("time_s,left_counts,right_counts\n", run.wheels, [](auto& at) {
+           const std::string row =
+               fmt::format("{:.6f},{},{}", at.time_s, Robot::counts(at.left_m), Robot::counts(at.right_m));
+           return row + "\n" + row;
+         });
+       })},
+      {"truth with whole seconds", truth([](auto& run) {
+         return truth_in(run, "time_s,x_m,y_m,theta_rad\n", [](auto& at) {
+           return fmt::format("{:.0f},{:.6f},{:.6f},{:.6f}", std::floor(at.time_s), at.x_m, at.y_m,
+                              at.theta_rad);
+         });
+       })},
       {"microseconds that are not called so", wheels([](auto& run) {
          return rows("time,left_ticks,right_ticks\n", run.wheels, [](auto& at) {
            return fmt::format("{:.0f},{},{}", 1e6 * (5 + at.time_s), Robot::counts(at.left_m),
@@ -378,6 +436,7 @@ std::vector<OddKind> odd_kinds() {
        wheels([](auto& run) { return counts_in(without(without(run, 9, 9.5), 20, 20.5)); })},
       {"a log of 5 Hz", wheels(every(20))},
       {"a log of 2 Hz", wheels(every(50))},
+      {"a log of 1 Hz", wheels(every(100))},
       {"left and right exchanged",
        [](const Robot& robot) { return wired(robot, swap_wheels, false, false); },
        {Doubt::turns_against_wheels}},

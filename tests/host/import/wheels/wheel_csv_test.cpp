@@ -203,6 +203,25 @@ TEST(WheelCsv, RowsWithEmptyCellsAndRepeatedTimesAreCounted) {
                                          Tells(WheelTableProblem::times_repeated, "w.csv", "1")));
 }
 
+TEST(WheelCsv, RowsOfTimesWithTooFewDigitsAreSpreadEvenlyOrRefused) {
+  std::string even = "time_s,left_counts,right_counts\n", twice = even, uneven = even;
+  for (int row = 0; row < 500; ++row) {
+    const std::string counts = fmt::format("{},{}\n", 20 * row, 21 * row);
+    even += fmt::format("{},{}", row / 50, counts);
+    uneven += fmt::format("{},{}", row < 300 ? row / 50 : row / 10, counts);
+    twice += fmt::format("{:.2f},{}{:.2f},{}", 0.02 * row, counts, 0.02 * row, counts);
+  }
+  const WheelTrack track = wheels(even);
+  ASSERT_EQ(track.samples.size(), 500U);
+  for (std::size_t i = 0; i < 500; ++i)
+    EXPECT_EQ(track.samples[i].time_ns, 10'000'000 + 20'000'000 * static_cast<std::int64_t>(i));
+  EXPECT_THAT(track.remarks, ElementsAre(Tells(WheelTableProblem::times_spread, "w.csv", "50", "1")));
+  EXPECT_THAT(why(uneven), Tells(WheelTableProblem::times_too_coarse, "w.csv", testing::_));
+  const WheelTrack once = wheels(twice);
+  EXPECT_EQ(once.samples.size(), 500U) << "copies lose nothing";
+  EXPECT_THAT(once.remarks, ElementsAre(Tells(WheelTableProblem::times_repeated, "w.csv", "500")));
+}
+
 TEST(WheelCsv, NamesInAnyStyleAreUnderstood) {
   const auto counts = ElementsAre(WheelSample{0, 1, 2}, WheelSample{20'000'000, 3, 5});
   for (const char* text :

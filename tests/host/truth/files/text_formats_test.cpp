@@ -142,6 +142,20 @@ TEST(Tum, RepeatedTimesAreLeftOutAndSaid) {
               Tells(TrackProblem::time_not_increasing, "file", "2"));
 }
 
+TEST(PlainCsv, PosesOfTimesWithTooFewDigitsAreSpreadEvenlyOrRefused) {
+  std::string even = "time_s,x_m,y_m\n", uneven = even;
+  for (int row = 0; row < 600; ++row) {
+    even += std::to_string(row / 60) + ',' + std::to_string(row) + ",0\n";
+    uneven += std::to_string(row < 300 ? row / 60 : row / 10) + ',' + std::to_string(row) + ",0\n";
+  }
+  const BodyTrack track = read_track(even, "x.csv");
+  ASSERT_EQ(track.samples.size(), 600U);
+  EXPECT_NEAR(1e-9 * static_cast<double>(track.samples[90].time_ns), 1.5, 0.02);
+  EXPECT_THAT(track.facts.remarks, testing::Contains(Tells(TrackRemark::times_spread, "60", "1")));
+  EXPECT_THAT(support::told_by([&] { read_track(uneven, "x.csv"); }),
+              Tells(TrackProblem::times_too_coarse, "x.csv", testing::_));
+}
+
 TEST(Tum, ReadsTheBenchmarksFile) {
   const std::string path = shared_file("samples/tum/freiburg1_xyz-groundtruth.txt");
   SKIP_WITHOUT(path);
