@@ -157,6 +157,11 @@ constexpr Advice kImportAdvice[] = {
     {importing::WheelTableProblem::times_too_coarse, ": write the times with more digits"},
     {truth::TrackProblem::times_too_coarse, ": write the times with more digits"},
     {importing::CounterProblem::range_unknown, ": give the range with --counter-range"},
+    {importing::CounterProblem::starts_again,
+     ": if a counter starts again there at the end of its range, give it with --counter-range, otherwise cut "
+     "the recording there"},
+    {importing::CounterProblem::too_fast,
+     ": log more often, or give another --counter-range if that is not its range"},
     {importing::CounterProblem::beyond_range, ": give another --counter-range"},
     {tables::StatedColumnsProblem::no_such_name, ": name columns that it has, or all of them in their order"},
     {truth::TrackProblem::no_columns, ": say what they are with --truth-columns"},

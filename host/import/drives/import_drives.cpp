@@ -12,6 +12,7 @@
 #include "host/formats/messages/text_message.hpp"
 #include "host/import/drives/wheel_doubts.hpp"
 #include "host/import/drives/wheel_run.hpp"
+#include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/described_wheels.hpp"
 
 namespace astro::importing {
@@ -145,6 +146,7 @@ struct PairedDrive {
   /// counts with kAngleCounts in a turn (analysis/trajectories.hpp).
   recording::Run run;
   DriveReport report;
+  std::optional<double> counter_range;  // that the wheels showed
 };
 
 /// Times of wheels and tracker are as in their files: microseconds with any origin. If there are more than 40
@@ -231,8 +233,10 @@ std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& f
 /// origin, two of the three may be wrong and hide each other, so the axis must be given.
 PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
                     const RobotGeometry& given, const ImportChoices& choices) {
+  const std::optional<double> counter_range = wheels.track.counter_range;
   WheelRun made = run_of_wheels(name, std::move(wheels), given);
-  PairedDrive drive{std::move(made.run), {{}, std::move(made.summary), std::move(made.remarks)}};
+  PairedDrive drive{
+      std::move(made.run), {{}, std::move(made.summary), std::move(made.remarks)}, counter_range};
   drive.run.info.truth_source = "file";
   drive.run.info.truth_clock = "tracker";
   std::vector<Remark>& all = drive.report.remarks;
@@ -272,6 +276,94 @@ PairedDrive paired(const std::string& name, const DriveFiles& files, const Impor
   }
 }
 
+/// Reads all drives. What one of them does not show is taken from the others.
+class AllDrives {
+ public:
+  AllDrives(std::span<const DriveFiles> files, const ImportChoices& choices)
+      : files_(files), choices_(choices), geometry_(choices.geometry), names_(names_of(files)) {}
+
+  std::vector<PairedDrive> read() {
+    for (std::size_t i = 0; i < files_.size(); ++i) read(i, choices_);
+    take_range_of_others();
+    take_up_axis_of_others();
+    std::vector<PairedDrive> drives;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (failed_[i]) throw Error(*failed_[i]);
+      drives.push_back(std::move(*drives_[i]));
+    }
+    return drives;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  static bool is_of_counter(Kind kind) {
+    return kind == CounterProblem::starts_again || kind == CounterProblem::range_unknown ||
+           kind == ImportProblem::leaps;
+  }
+
+  void read(std::size_t i, const ImportChoices& choices) try {
+    drives_[i] = paired(names_[i], files_[i], choices, geometry_);
+    failed_[i].reset();
+  } catch (const Error& error) {
+    if (error.kind() != truth::FloorProblem::no_up_axis && !is_of_counter(error.kind())) throw;
+    failed_[i] = error;
+  }
+
+  /// A counter that came to its end once or twice in a drive may not show its range; in longer drives it does.
+  void take_range_of_others() {
+    std::optional<double> range;
+    for (const auto& drive : drives_) {
+      if (!drive || !drive->counter_range) continue;
+      if (range && range != drive->counter_range) return;
+      range = drive->counter_range;
+    }
+    if (!range) return;
+    ImportChoices as_others = choices_;
+    as_others.wheels.table.counter_range = range;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      const bool doubtful = failed_[i] ? is_of_counter(failed_[i]->kind()) : has_joined_restart(*drives_[i]);
+      if (doubtful) try {
+          read(i, as_others);
+        } catch (const Error& error) {
+          if (error.kind() != CounterProblem::beyond_range) throw;
+        }
+    }
+  }
+
+  static bool has_joined_restart(const PairedDrive& drive) {
+    return std::ranges::any_of(drive.report.remarks, [](const Remark& remark) {
+      return remark.kind == WheelRemark::restart_joined;
+    });
+  }
+
+  /// A drive on a line does not show which axis is up; the others of the same tracker do.
+  void take_up_axis_of_others() {
+    const auto shows =
+        std::find_if(drives_.begin(), drives_.end(), [](const auto& drive) { return drive.has_value(); });
+    if (shows == drives_.end()) return;
+    ImportChoices as_others = choices_;
+    as_others.floor.up = (*shows)->report.floor.up;
+    const std::string axis = truth::axis_text(*as_others.floor.up),
+                      from = names_[static_cast<std::size_t>(shows - drives_.begin())];
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (!failed_[i] || failed_[i]->kind() != truth::FloorProblem::no_up_axis) continue;
+      read(i, as_others);
+      if (failed_[i]) continue;
+      drives_[i]->report.remarks.push_back(
+          {"it does not show which axis points up; " + axis + " is taken, as in " + from,
+           ImportProblem::up_axis_of_other,
+           {names_[i], axis, from}});
+    }
+  }
+
+  std::span<const DriveFiles> files_;
+  const ImportChoices& choices_;
+  Geometry geometry_;
+  std::vector<std::string> names_;
+  std::vector<std::optional<PairedDrive>> drives_ = std::vector<std::optional<PairedDrive>>(files_.size());
+  std::vector<std::optional<Error>> failed_ = std::vector<std::optional<Error>>(files_.size());
+};
+
 }  // namespace
 
 ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoices& choices) {
@@ -294,37 +386,12 @@ ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoic
 
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
   refuse_twins(files);
-  Geometry geometry(choices.geometry);
-  const std::vector<std::string> names = names_of(files);
-  std::vector<std::optional<PairedDrive>> drives(files.size());
-  std::optional<Error> no_up_axis;
-  for (std::size_t i = 0; i < files.size(); ++i) try {
-      drives[i] = paired(names[i], files[i], choices, geometry);
-    } catch (const Error& error) {
-      if (error.kind() != truth::FloorProblem::no_up_axis) throw;
-      if (!no_up_axis) no_up_axis = error;
-    }
-  if (no_up_axis) {
-    // A drive on a line does not show which axis is up; the others of the same tracker do.
-    const auto shows =
-        std::find_if(drives.begin(), drives.end(), [](const auto& drive) { return drive.has_value(); });
-    if (shows == drives.end()) throw Error(*no_up_axis);
-    ImportChoices as_others = choices;
-    as_others.floor.up = (*shows)->report.floor.up;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      if (drives[i]) continue;
-      drives[i] = paired(names[i], files[i], as_others, geometry);
-      const std::string axis = truth::axis_text(*as_others.floor.up),
-                        from = names[static_cast<std::size_t>(shows - drives.begin())];
-      drives[i]->report.remarks.push_back(
-          {"it does not show which axis points up; " + axis + " is taken, as in " + from,
-           ImportProblem::up_axis_of_other,
-           {names[i], axis, from}});
-    }
-  }
+  AllDrives reader(files, choices);
+  std::vector<PairedDrive> drives = reader.read();
+  const std::vector<std::string>& names = reader.names();
   // Wheels that are exchanged and reversed turn the robot as the truth does. Nothing but their direction shows it.
   const bool backward =
-      std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drove_backward(drive->run); });
+      std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drove_backward(drive.run); });
   if (backward && !choices.drives_backward && !files.empty())
     throw Error("by its wheels the robot drove backward in " +
                     (files.size() == 1 ? "'" + names.front() + "'" : "all drives"),
@@ -332,9 +399,9 @@ ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoi
   ImportedDrives all;
   all.set.names = names;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    refuse_copy(drives[i]->run, all.set.runs, names[i], names);
-    all.set.runs.push_back(std::move(drives[i]->run));
-    all.reports.push_back(std::move(drives[i]->report));
+    refuse_copy(drives[i].run, all.set.runs, names[i], names);
+    all.set.runs.push_back(std::move(drives[i].run));
+    all.reports.push_back(std::move(drives[i].report));
   }
   return all;
 }

@@ -43,6 +43,8 @@ struct ImportedDrives {
   std::vector<DriveReport> reports;  // one for each run
 };
 
+/// What one drive does not show is taken from the others: which axis points up, and the range of a counter.
+///
 /// Throws astro::Error
 ///   if two pairs have the same file of wheels, or one drive is a copy of another;
 ///   naming the drive, if a wheel cannot be what it is said to be (wheel_doubts.hpp), or if by its wheels the robot drove

@@ -12,12 +12,11 @@
 #include "host/base/error.hpp"
 #include "host/base/order_statistics.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/import/wheels/counter_size.hpp"
 #include "host/import/wheels/restarts.hpp"
 
 namespace astro::importing {
 namespace {
-
-using Wheel = double WheelSample::*;
 
 struct Range {
   double least = 0, size = 0;
@@ -33,7 +32,7 @@ std::vector<Range> usual_ranges(WheelUnit unit) {
   if (unit == WheelUnit::radians)
     return {{-kRounding, kTurn, "one turn"}, {-kTurn / 2 - kRounding, kTurn, "one turn"}};
   std::vector<Range> ranges;
-  for (const int bits : {8, 12, 16, 24, 32}) {
+  for (const int bits : {8, 10, 12, 14, 16, 24, 32}) {
     const double size = std::exp2(bits);
     const bool rare = bits != 16 && bits != 32;
     for (const double least : {0.0, -size / 2})
@@ -80,57 +79,13 @@ bool wraps(const std::vector<WheelSample>& samples, Wheel wheel, const Range& ra
   return jumps;
 }
 
-/// The bounds within which the number of counts of an unusual range is: the wheel jumps back again and again by nearly the
-/// same, and goes on as before.
-struct Bounds {
-  double least = 0, size_from = 0, size_to = 0;
-};
-
-/// Nothing if the wheel does not jump so.
-std::optional<Bounds> unusual_range(const std::vector<WheelSample>& samples, Wheel wheel) {
-  constexpr double kLongerThanSteps = 8, kCounts = 1.5;  // by which rounding moves a size
-  constexpr std::size_t kFewestJumps = 2, kFewestSamples = 20;
-  if (samples.size() < kFewestSamples) return std::nullopt;
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  std::vector<double> steps;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    lowest = std::min(lowest, samples[i].*wheel);
-    highest = std::max(highest, samples[i].*wheel);
-    if (i > 0) steps.push_back(samples[i].*wheel - samples[i - 1].*wheel);
-  }
-  const double half = (highest - lowest) / 2;
-  double longest = 0;
-  for (const double step : steps)
-    if (std::abs(step) <= half) longest = std::max(longest, std::abs(step));
-  if (!(half > kLongerThanSteps * longest) || longest == 0) return std::nullopt;
-  std::vector<double> sizes;
-  for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
-    if (std::abs(steps[i]) <= half) continue;
-    // Across the end the wheel moved as in the steps before and after.
-    const double moved = (steps[i - 1] + steps[i + 1]) / 2;
-    // A single wrong count jumps away and back; a counter at its end jumps against the motion.
-    if (std::abs(steps[i - 1]) > half || std::abs(steps[i + 1]) > half || moved * steps[i] > 0)
-      return std::nullopt;
-    sizes.push_back(steps[i] < 0 ? moved - steps[i] : steps[i] - moved);
-  }
-  if (sizes.size() < kFewestJumps) return std::nullopt;
-  const double size = median_of(sizes);
-  for (double& one : sizes) one -= size;
-  const double tolerance = kCounts + 3 * deviation_of(sizes) / std::sqrt(static_cast<double>(sizes.size()));
-  if (size + tolerance < highest - lowest + 1 || tolerance > longest + kCounts) return std::nullopt;
-  return Bounds{lowest, std::max(size - tolerance, highest - lowest + 1), size + tolerance};
-}
-
-/// The roundest whole number within bounds; nothing if the bounds are so wide that such a number may be there by chance.
-std::optional<double> roundest(const Bounds& bounds) {
-  constexpr double kByChance = 0.05, kMostDegrees = 3'600;
-  for (const double unit : {10'000.0, 5'000.0, 3'600.0, 1'000.0, 500.0, 360.0, 100.0}) {
-    const double first = std::ceil(bounds.size_from / unit) * unit;
-    if (first > bounds.size_to || (unit == 360 && first > kMostDegrees)) continue;
-    if (bounds.size_to - bounds.size_from > kByChance * unit) return std::nullopt;
-    return first;
-  }
-  return std::nullopt;
+[[noreturn]] void refuse_jump(const WheelSample& from, const WheelSample& to, Wheel wheel,
+                              const std::string& name, const std::string& side) {
+  const std::string before = to_text(from.*wheel), after = to_text(to.*wheel),
+                    time = seconds_text(to.time_ns / 1000);
+  throw Error(name + ": the " + side + " wheel jumps from " + before + " to " + after + " at " + time +
+                  " s, which is neither motion nor the end of a counter whose range is known",
+              CounterProblem::starts_again, {name, side, before, after, time});
 }
 
 /// How often the wheel passed the end of the range between two samples; forwards is positive. `name` and
@@ -141,12 +96,34 @@ double passes_between(const WheelSample& from, const WheelSample& to, Wheel whee
   const double passes = -std::round(jump / range.size);
   if (passes == 0 || pace.fits(std::abs(jump + passes * range.size), time_s)) return passes;
   if (pace.fits(std::abs(jump), time_s)) return 0;
-  const std::string before = to_text(from.*wheel), after = to_text(to.*wheel),
-                    time = seconds_text(to.time_ns / 1000);
-  throw Error(name + ": the " + side + " wheel jumps from " + before + " to " + after + " at " + time +
-                  " s, which is neither motion nor the end of a counter, as where a counter starts again; "
-                  "cut it there",
-              CounterProblem::starts_again, {name, side, before, after, time});
+  refuse_jump(from, to, wheel, name, side);
+}
+
+/// A longer period than this is one in which samples were lost.
+double late_period_ns(const std::vector<WheelSample>& samples) {
+  constexpr double kLate = 2.5;  // of the usual period
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    periods.push_back(samples[i].time_ns - samples[i - 1].time_ns);
+  return kLate * static_cast<double>(median_of(std::move(periods)));
+}
+
+/// Refuses a wheel that moves nearly half its range from one sample to the next, because then its direction is not known.
+void refuse_fast(const std::vector<WheelSample>& samples, Wheel wheel, const Range& range,
+                 const std::string& name, const std::string& side) {
+  constexpr double kNearlyHalf = 0.45;
+  if (samples.size() < kFewestForSize) return;
+  const double late_ns = late_period_ns(samples);
+  double step = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double before = std::exchange(step, samples[i].*wheel - samples[i - 1].*wheel);
+    if (static_cast<double>(samples[i].time_ns - samples[i - 1].time_ns) > late_ns) continue;
+    const bool turns = i > 1 && std::abs(step - before) > range.size / 2;
+    if (std::abs(step) <= kNearlyHalf * range.size && !turns) continue;
+    throw Error(name + ": from one sample to the next the " + side + " wheel moves by half of the " +
+                    range.name + " of its counter or more, so that its direction is not known",
+                CounterProblem::too_fast, {name, side, range.name});
+  }
 }
 
 void unwrap_wheel(WheelTrack& track, Wheel wheel, const Range& range, const std::string& name,
@@ -162,11 +139,13 @@ void unwrap_wheel(WheelTrack& track, Wheel wheel, const Range& range, const std:
     before = sample;
     sample.*wheel += passes * range.size;
   }
-  if (any)
-    track.remarks.push_back(
-        {"the " + side + " wheel starts again at the end of " + range.name + "; it was made continuous",
-         WheelRemark::continued,
-         {side, range.name}});
+  if (!any) return;
+  if (track.unit == WheelUnit::counts) refuse_fast(track.samples, wheel, range, name, side);
+  track.counter_range = range.size;
+  track.remarks.push_back(
+      {"the " + side + " wheel starts again at the end of " + range.name + "; it was made continuous",
+       WheelRemark::continued,
+       {side, range.name}});
 }
 
 bool holds(const Range& range, const std::vector<WheelSample>& samples, Wheel wheel) {
@@ -192,29 +171,62 @@ Range stated_range(const std::vector<WheelSample>& samples, Wheel wheel, double 
   return range;
 }
 
+[[noreturn]] void refuse_range(const CounterSize& bounds, const std::string& name, const std::string& side) {
+  const std::string from = to_text(std::ceil(bounds.size_from)), to = to_text(std::floor(bounds.size_to));
+  throw Error(
+      name + ": the counter of the " + side + " wheel starts again after " + from + " to " + to + " counts",
+      CounterProblem::range_unknown, {name, side, from, to});
+}
+
 /// The range in which a wheel wraps; nothing if it does not.
 std::optional<Range> range_of(const WheelTrack& track, Wheel wheel, const std::string& name,
                               const std::string& side) {
+  std::optional<CounterSize> bounds;
+  if (track.unit == WheelUnit::counts) bounds = size_shown(track.samples, wheel);
   for (const Range& range : usual_ranges(track.unit))
-    if (wraps(track.samples, wheel, range)) return range;
-  if (track.unit != WheelUnit::counts) return std::nullopt;
-  const auto bounds = unusual_range(track.samples, wheel);
+    if ((!range.to_both_ends ||
+         (bounds ? bounds->hold(range.size) : track.samples.size() < kFewestForSize)) &&
+        wraps(track.samples, wheel, range))
+      return range;
   if (!bounds) return std::nullopt;
   const auto size = roundest(*bounds);
-  if (!size || bounds->least < 0) {
-    const std::string from = to_text(std::ceil(bounds->size_from)), to = to_text(std::floor(bounds->size_to));
-    throw Error(name + ": the counter of the " + side + " wheel starts again and again, after " + from +
-                    " to " + to + " counts",
-                CounterProblem::range_unknown, {name, side, from, to});
-  }
+  if (!size || bounds->least < 0) refuse_range(*bounds, name, side);
   return Range{0, *size, to_text(*size) + " counts"};
+}
+
+/// Refuses a jump that is no motion and that the next sample does not undo, of a wheel for which no range was found.
+void refuse_jumps(const std::vector<WheelSample>& samples, Wheel wheel, const std::string& name,
+                  const std::string& side) {
+  constexpr double kFewCounts = 50;  // coarse encoders go no further in a short drive
+  constexpr double kUndone = 0.5;    // of a jump
+  const WheelSteps steps(samples, wheel);
+  const double half = steps.half(), late_ns = late_period_ns(samples);
+  if (samples.size() < kFewestForSize || half < kFewCounts) return;
+  for (std::size_t i = 1; i + 1 < steps.all.size(); ++i) {
+    const double step = steps.all[i], change = step - steps.all[i - 1];
+    const auto undoes = [&](double one, double other) {
+      return std::abs(one + other) < kUndone * std::abs(one);
+    };
+    if (std::abs(step) <= half || std::abs(change) <= half || undoes(step, steps.all[i + 1]) ||
+        undoes(step, steps.all[i - 1]) ||
+        static_cast<double>(samples[i + 1].time_ns - samples[i].time_ns) > late_ns)
+      continue;
+    refuse_jump(samples[i], samples[i + 1], wheel, name, side);
+  }
+}
+
+/// Whether both wheels come to the end of the same range again and again, which a controller that was reset does not.
+bool wrap_alike(const std::vector<WheelSample>& samples) {
+  const auto left = size_shown(samples, &WheelSample::left), right = size_shown(samples, &WheelSample::right);
+  return left && right && left->jumps > 1 && right->jumps > 1 && left->size_from <= right->size_to &&
+         right->size_from <= left->size_to;
 }
 
 }  // namespace
 
 void unwrap(WheelTrack& track, const std::string& name, std::optional<double> stated) {
   if (track.samples.empty()) return;
-  if (!stated) join_restarts(track, name);
+  if (!stated && !(track.unit == WheelUnit::counts && wrap_alike(track.samples))) join_restarts(track, name);
   if (track.unit == WheelUnit::metres) return;
   const std::array<std::pair<Wheel, std::string>, 2> wheels{
       {{&WheelSample::left, "left"}, {&WheelSample::right, "right"}}};
@@ -228,6 +240,8 @@ void unwrap(WheelTrack& track, const std::string& name, std::optional<double> st
     const std::optional<Range>& range = ranges[i] ? ranges[i] : ranges[1 - i];
     if (range && (ranges[i] || holds(*range, track.samples, wheels[i].first)))
       unwrap_wheel(track, wheels[i].first, *range, name, wheels[i].second);
+    else if (track.unit == WheelUnit::counts)
+      refuse_jumps(track.samples, wheels[i].first, name, wheels[i].second);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,9 +58,10 @@ struct WheelTrack {
   WheelUnit unit = WheelUnit::counts;
   WheelClock clock = WheelClock::file;
   std::vector<WheelSample> samples;
-  std::vector<Remark> remarks;  // what was inferred or left out
-  ReadColumns columns;          // of a table
-  JointPair joints;             // of a bag: those of the wheels
+  std::vector<Remark> remarks;          // what was inferred or left out
+  ReadColumns columns;                  // of a table
+  JointPair joints;                     // of a bag: those of the wheels
+  std::optional<double> counter_range;  // at whose end a wheel started again
   std::string odometry;  // of a bag: the topic from whose poses the wheels were worked out, otherwise ""
 };
 

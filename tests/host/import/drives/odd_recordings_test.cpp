@@ -115,6 +115,31 @@ std::string counts_around(const Trajectory& run, double range) {
   });
 }
 
+Trajectory every_nth(const Trajectory& run, std::size_t n) {
+  Trajectory slow = run;
+  slow.wheels.clear();
+  for (std::size_t i = 0; i < run.wheels.size(); i += n) slow.wheels.push_back(run.wheels[i]);
+  return slow;
+}
+
+/// Counters of few bits that a slow log reads, of encoders with as few counts as fit: one of `coarser` counts.
+/// The first drive may be logged more slowly than the others.
+Recording slow_counters(const Robot& robot, double range, double coarser, std::size_t every,
+                        std::size_t first = 0) {
+  Recording recording = robot.with([&](const Trajectory& run) {
+    const std::size_t n = first > 0 && run.name == robot.drives.front().name ? first : every;
+    return rows("time_s,left_counts,right_counts\n", every_nth(run, n).wheels, [&](const WheelsAt& at) {
+      const auto around = [&](double travel_m, double start) {
+        const double count = std::floor(Robot::counts(travel_m) / coarser) + start;
+        return count - range * std::floor(count / range);
+      };
+      return fmt::format("{:.6f},{},{}", at.time_s, around(at.left_m, 10), around(at.right_m, 20));
+    });
+  });
+  *recording.choices.geometry.counts_per_turn /= coarser;
+  return recording;
+}
+
 /// Counts whose times are written as `written` says.
 std::string counts_at(const Trajectory& run, const char* time, const std::function<double(double)>& written) {
   return rows(fmt::format("{},left_counts,right_counts\n", time), run.wheels, [&](const WheelsAt& at) {
@@ -178,12 +203,7 @@ std::vector<OddKind> odd_kinds() {
     };
   };
   const auto every = [](std::size_t n) {
-    return [=](const Trajectory& run) {
-      Trajectory slow = run;
-      slow.wheels.clear();
-      for (std::size_t i = 0; i < run.wheels.size(); i += n) slow.wheels.push_back(run.wheels[i]);
-      return counts_in(slow);
-    };
+    return [=](const Trajectory& run) { return counts_in(every_nth(run, n)); };
   };
   const auto speeds = [](const char* head, double per_metre) {
     return [=](const Trajectory& run) {
@@ -412,6 +432,21 @@ std::vector<OddKind> odd_kinds() {
        })},
       {"a counter of 16 bits", wheels([](auto& run) { return counts_around(run, 65'536); })},
       {"a counter of 12 bits", wheels([](auto& run) { return counts_around(run, 4'096); })},
+      {"a counter of 12 bits at 10 Hz",
+       [](const Robot& robot) { return slow_counters(robot, 4'096, 1, 10); }},
+      {"a counter of 12 bits at 5 Hz", [](const Robot& robot) { return slow_counters(robot, 4'096, 1, 20); }},
+      {"a counter of 8 bits at 20 Hz", [](const Robot& robot) { return slow_counters(robot, 256, 16, 5); }},
+      {"a counter of 8 bits at 10 Hz", [](const Robot& robot) { return slow_counters(robot, 256, 16, 10); }},
+      {"a counter of 8 bits at 10 Hz, nearly half a range a row",
+       [](const Robot& robot) { return slow_counters(robot, 256, 6, 10); }},
+      {"a counter of 16 bits at 2 Hz",
+       [](const Robot& robot) { return slow_counters(robot, 65'536, 0.125, 50); }},
+      {"a counter of 8 bits that comes round within two rows",
+       [](const Robot& robot) { return slow_counters(robot, 256, 2, 10); },
+       {CounterProblem::too_fast}},
+      {"a counter of 10 bits", wheels([](auto& run) { return counts_around(run, 1'024); })},
+      {"a counter from 0 to 8999 that the first drive does not show",
+       [](const Robot& robot) { return slow_counters(robot, 9'000, 1, 1, 50); }},
       {"a counter from 0 to 8999", wheels([](auto& run) { return counts_around(run, 9'000); })},
       {"a counter of an odd range",
        wheels([](auto& run) { return counts_around(run, 7'919); }),
