@@ -35,8 +35,8 @@ RecordedMotion::RecordedMotion(const Trajectory& run, double wheelbase_m, double
     : run_(run),
       headings_(mostly_headings(run.truth)),
       radius_m_(headings_ ? wheelbase_m / 2 : 0),
-      wheels_(wheel_body(run.wheels, wheelbase_m, lever_m, kBeyond_s)),
-      truth_(run.truth, headings_) {
+      wheel_path_(wheel_body(run.wheels, wheelbase_m, lever_m, kBeyond_s)),
+      truth_path_(run.truth, headings_) {
   SecondDifferences differences;
   differences.add(run.truth);
   sigma_m_ = std::hypot(differences.sigma_xy_m(), differences.sigma_theta_rad() * radius_m_);
@@ -46,7 +46,7 @@ RecordedMotion::RecordedMotion(const Trajectory& run, double wheelbase_m, double
 
 void RecordedMotion::choose_window() {
   const double wanted_mps =
-      kWantedNoise * standard_deviation_mps(wheel_profile(std::max(kGlance_s, finest_bin_s()), window_));
+      kWantedNoise * standard_deviation_mps(wheels(std::max(kGlance_s, finest_bin_s())));
   if (noise_mps(window_) <= wanted_mps) return;
   // Of n = rate * width samples each, means over neighbouring widths differ by sqrt(2 / n) sigma.
   const double width_s = std::cbrt(2 / truth_rate_hz_ * std::pow(sigma_m_ / std::max(wanted_mps, 1e-6), 2));
@@ -63,16 +63,22 @@ double RecordedMotion::noise_mps(const Window& window) const {
   return std::sqrt(2 / samples) * sigma_m_ / width_s;
 }
 
-MotionProfile RecordedMotion::wheel_profile(double bin_s, const Window& window) const {
-  return profile_of(wheels_, run_.wheels.front().time_s, run_.wheels.back().time_s, bin_s, window, radius_m_);
+Window RecordedMotion::window_for(double bin_s) const {
+  return bin_s > window_.half_s ? Window{std::min(bin_s, kBeyond_s / 2), window_.averaged} : window_;
+}
+
+MotionProfile RecordedMotion::wheels(double bin_s) const {
+  return profile_of(wheel_path_, run_.wheels.front().time_s, run_.wheels.back().time_s, bin_s,
+                    window_for(bin_s), radius_m_);
+}
+
+MotionProfile RecordedMotion::truth(double bin_s) const {
+  return profile_of(truth_path_, run_.truth.front().time_s, run_.truth.back().time_s, bin_s,
+                    window_for(bin_s), radius_m_);
 }
 
 MotionMatch RecordedMotion::match(double bin_s) const {
-  Window window = window_;
-  if (bin_s > window.half_s) window = {std::min(bin_s, kBeyond_s / 2), window.averaged};
-  return {wheel_profile(bin_s, window),
-          profile_of(truth_, run_.truth.front().time_s, run_.truth.back().time_s, bin_s, window, radius_m_),
-          noise_mps(window)};
+  return {wheels(bin_s), truth(bin_s), noise_mps(window_for(bin_s))};
 }
 
 }  // namespace astro::calibration

@@ -20,7 +20,9 @@ class RecordedMotion {
   /// recording so long that they would not fit into memory.
   double finest_bin_s() const;
 
-  /// Bins much coarser than the window use speeds averaged over a bin.
+  /// The speeds of each stream. Bins much coarser than the window use speeds averaged over a bin.
+  MotionProfile wheels(double bin_s) const;
+  MotionProfile truth(double bin_s) const;
   MotionMatch match(double bin_s) const;
 
   double wheel_middle_s() const { return (run_.wheels.front().time_s + run_.wheels.back().time_s) / 2; }
@@ -29,14 +31,14 @@ class RecordedMotion {
   double truth_span_s() const { return run_.truth.back().time_s - run_.truth.front().time_s; }
 
  private:
-  MotionProfile wheel_profile(double bin_s, const Window& window) const;
+  Window window_for(double bin_s) const;
   void choose_window();
   double noise_mps(const Window& window) const;
 
   const Trajectory& run_;
   bool headings_;
   double radius_m_;  // of a wheel about the centre; 0 without headings, so that turning does not count
-  BodyPath wheels_, truth_;
+  BodyPath wheel_path_, truth_path_;
   double sigma_m_ = 0, truth_rate_hz_ = 0;
   Window window_;
 };

@@ -12,6 +12,8 @@
 #include "host/base/error.hpp"
 #include "host/base/order_statistics.hpp"
 #include "host/base/text/degrees.hpp"
+#include "host/calibration/motion/clock_step.hpp"
+#include "host/calibration/motion/stamp_leap.hpp"
 #include "host/calibration/motion/tracker_noise.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/calibration/preparation/handedness.hpp"
@@ -345,6 +347,73 @@ Remark why_blind(const Trajectory& run) {
       {run.name}};
 }
 
+const char* in_words(StampedStream stream) {
+  return stream == StampedStream::odometry ? "odometry" : "ground truth";
+}
+
+Remark why_retimed(const Trajectory& run, const StampLeap& leap) {
+  const double at_s = leap.stream == StampedStream::odometry
+                          ? run.wheels[leap.after].time_s - run.wheels.front().time_s
+                          : run.truth[leap.after].time_s - run.truth.front().time_s;
+  const std::string stream = in_words(leap.stream), by = fmt::format("{:.2f}", leap.by_s),
+                    at = fmt::format("{:.1f}", at_s);
+  return {fmt::format(
+              "the clock of the {} of {} was set on by {} s at {} s: what follows was set back by as much",
+              stream, run.name, by, at),
+          PreparationProblem::clock_stepped,
+          {run.name, stream, by, at}};
+}
+
+Remark why_step_hidden(const Trajectory& run, const ClockStep& step) {
+  const std::string by = fmt::format("{:.2f}", step.by_s),
+                    from = fmt::format("{:.1f}", step.begin_s - run.truth.front().time_s),
+                    to = fmt::format("{:.1f}", step.end_s - run.truth.front().time_s);
+  return {
+      fmt::format("a clock of {} was set anew: by the motion the odometry is {} s later against the ground "
+                  "truth from some moment between {} s and {} s on, and no stamps show it: cut the drive "
+                  "there, or record it again with clocks that nothing sets",
+                  run.name, by, from, to),
+      PreparationProblem::clock_step_hidden,
+      {run.name, by, from, to}};
+}
+
+/// A drive with its clock.
+struct Clocked {
+  ClockFit clock;
+  std::shared_ptr<const Trajectory> retimed = {};
+  std::vector<Remark> mended = {};
+  std::optional<Remark> useless = {};  // why the drive cannot be used
+};
+
+/// Finds the clock of a drive, and takes steps of either stream's clock out of it.
+Clocked clocked(const Trajectory& run, const WheelFactors& loaded, const std::optional<ClockFit>& before) {
+  constexpr std::size_t kMostSteps = 8;
+  constexpr double kAsGood = 0.002;  // of the correlation
+  Clocked found{clock_of(run, loaded, before)};
+  const Trajectory* now = &run;
+  while (true) {
+    const auto step = find_clock_step(*now, found.clock, loaded.b_m);
+    auto leap = step ? find_leap(*now, *step, found.clock) : std::nullopt;
+    const bool by_motion = leap.has_value();
+    if (!leap) leap = find_leap_without_way(*now, loaded.b_m);
+    std::shared_ptr<Trajectory> retimed;
+    ClockFit clock;
+    if (leap && found.mended.size() < kMostSteps) {
+      retimed = std::make_shared<Trajectory>(*now);
+      take_back(*retimed, *leap);
+      clock = clock_of(*retimed, loaded, before);
+    }
+    if (!retimed || (!by_motion && clock.correlation < found.clock.correlation - kAsGood)) {
+      if (step && step->sure) found.useless = why_step_hidden(*now, *step);
+      return found;
+    }
+    found.mended.push_back(why_retimed(*now, *leap));
+    found.retimed = std::move(retimed);
+    now = found.retimed.get();
+    found.clock = clock;
+  }
+}
+
 void require_clock(const Trajectory& run, const ClockFit& clock) {
   if (!in_common(clock))
     throw Error(
@@ -364,19 +433,24 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
   if (runs.empty()) throw Error("there are no runs to calibrate from", PreparationProblem::no_runs);
   PreparedRuns prepared;
   std::optional<ClockFit> before;
-  for (const Trajectory& run : runs) {
-    require_samples(run, clock_known);
-    ClockFit clock;
+  for (const Trajectory& recorded : runs) {
+    require_samples(recorded, clock_known);
+    Clocked found;
     if (!clock_known) {
-      clock = clock_of(run, loaded, before);
-      if (is_blind_spin(run, clock, loaded.b_m)) {
-        prepared.left_out.push_back(why_blind(run));
+      found = clocked(recorded, loaded, before);
+      if (is_blind_spin(recorded, found.clock, loaded.b_m)) found.useless = why_blind(recorded);
+      if (found.useless) {
+        prepared.left_out.push_back(*found.useless);
         continue;
       }
-      require_clock(run, clock);
-      before = clock;
+      require_clock(recorded, found.clock);
+      before = found.clock;
+      prepared.mended.insert(prepared.mended.end(), found.mended.begin(), found.mended.end());
     }
+    const Trajectory& run = found.retimed ? *found.retimed : recorded;
+    const ClockFit& clock = found.clock;
     PreparedRun ready = cropped(run, clock, loaded.b_m, density);
+    ready.retimed = found.retimed;
     say_bridged(run, ready.gaps, prepared.mended);
     const std::vector<WheelState> wheels = wheels_at_truth(ready, clock);
     classify_motion(ready, wheels, clock, loaded);

@@ -25,7 +25,7 @@ struct PreparedRuns {
   std::vector<PreparedRun> runs;
   std::vector<ClockFit> clocks;  // of each run; zero if the clocks are known
   /// The reason and the remedy for each run that is left out without harm: a spin during which the positions stand still, so
-  /// that they show neither its clock offset nor its rotation.
+  /// that they show neither its clock offset nor its rotation; a clock that was set anew at a moment that no stamp shows.
   std::vector<Remark> left_out;
   std::vector<Remark> mended;  // what was done to runs that are used
 };

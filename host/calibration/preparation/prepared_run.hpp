@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "host/calibration/motion/trajectory.hpp"
@@ -22,6 +23,8 @@ struct WheelGap {
 /// A drive prepared for the filter: the truth samples that the odometry covers, each with the robot's motion.
 struct PreparedRun {
   const Trajectory* source = nullptr;
+  std::shared_ptr<const Trajectory> retimed =
+      {};  // the source if a clock of the drive was set anew, otherwise none
   std::vector<BodySample> truth;
   std::vector<Motion> motion;   // between the previous sample and this one
   std::vector<double> path_m;   // path length of the wheels up to each sample, the mean of both

@@ -5,13 +5,16 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/sample_times.hpp"
 
 namespace astro::importing {
 
-/// Sorts samples by their time_ns, and drops all but the first of those with equal times, with a remark for
-/// either. `what` names the samples, for example "poses of /tracker".
+/// Mends the times of samples that are in the order in which they came (sample_times.hpp), sorts them by their time_ns, and
+/// drops all but the first of those with equal times, with a remark for each. `what` names the samples, for example "poses of
+/// /tracker".
 template <class Sample>
 void order_by_time(std::vector<Sample>& samples, const std::string& what, std::vector<Remark>& remarks) {
+  mend_times_of(samples, what, remarks);
   if (!std::ranges::is_sorted(samples, {}, &Sample::time_ns)) {
     std::stable_sort(samples.begin(), samples.end(),
                      [](const Sample& a, const Sample& b) { return a.time_ns < b.time_ns; });

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/base/order_statistics.hpp"
+#include "host/base/sample_times.hpp"
 #include "host/formats/tables/stated_columns.hpp"
 #include "host/formats/tables/table.hpp"
 #include "host/formats/tables/time_column.hpp"
@@ -99,11 +100,11 @@ class WheelRows {
 
   WheelTrack read() {
     while (table_.next()) row();
-    if (repeated_.rows() > 0) settle_repeated();
-    if (pairs_.front().size() < 2)
-      refuse_line("the table ends with fewer than two rows of wheels", WheelTableProblem::too_few_rows);
     WheelTrack track;
     track.unit = columns_.unit;
+    settle_times(track.remarks);
+    if (pairs_.front().size() < 2)
+      refuse_line("the table ends with fewer than two rows of wheels", WheelTableProblem::too_few_rows);
     for (Wheels& pair : pairs_) {
       WheelTrack one = track_of(std::move(pair));
       pair = std::move(one.samples);
@@ -203,8 +204,9 @@ class WheelRows {
     const auto time_ns = times_.read(table_);
     if (!time_ns) refuse_cell(*columns_.time.at, "is not a time", WheelTableProblem::not_a_time);
     const Wheels& first = pairs_.front();
-    if (!first.empty() && *time_ns < first.back().time_ns)
-      refuse_line("the time is before that of the row above: sort the rows", WheelTableProblem::times_fall);
+    constexpr std::size_t kMostFalls = 100;
+    if (!first.empty() && *time_ns < first.back().time_ns && falls_.size() < kMostFalls)
+      falls_.emplace_back(first.size(), table_.rows().line());
     const bool repeats = !first.empty() && *time_ns == first.back().time_ns;
     if (first.size() >= most_rows_)
       refuse_line("the table has more rows than can be held: split it into one file for each run",
@@ -224,16 +226,28 @@ class WheelRows {
     repeated_.take(repeats, changed);
   }
 
-  /// Leaves rows out that repeat the time of the row above, or spreads them if they are many.
-  void settle_repeated() {
-    if (repeated_.are_few()) {
-      for (Wheels& pair : pairs_) leave_out_repeated(pair);
-      said_of_times_ = {name_ + " has " + std::to_string(repeated_.rows()) +
-                            " rows that repeat the time of the row above; they were left out",
-                        WheelTableProblem::times_repeated,
-                        {name_, std::to_string(repeated_.rows())}};
-      return;
-    }
+  /// Spreads rows that share a time if they are many; otherwise mends the times and leaves out rows that repeat one.
+  void settle_times(std::vector<Remark>& remarks) {
+    if (falls_.empty() && !repeated_.are_few()) return spread_times(remarks);
+    Wheels& first = pairs_.front();
+    mend_times_of(first, "the wheels", remarks);
+    for (const auto& [at, line] : falls_)
+      if (first[at].time_ns < first[at - 1].time_ns)
+        throw Error(
+            fmt::format("{}, line {}: the time is before that of the row above: sort the rows", name_, line),
+            WheelTableProblem::times_fall, {name_, std::to_string(line)});
+    for (Wheels& pair : pairs_)
+      for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = first[i].time_ns;
+    const std::size_t rows = first.size();
+    for (Wheels& pair : pairs_) leave_out_repeated(pair);
+    if (const std::size_t left_out = rows - first.size(); left_out > 0)
+      remarks.push_back({name_ + " has " + std::to_string(left_out) +
+                             " rows that repeat the time of the row above; they were left out",
+                         WheelTableProblem::times_repeated,
+                         {name_, std::to_string(left_out)}});
+  }
+
+  void spread_times(std::vector<Remark>& remarks) {
     std::vector<std::int64_t> times_ns;
     for (const WheelSample& sample : pairs_.front()) times_ns.push_back(sample.time_ns);
     const auto spread = tables::spread_times(std::move(times_ns));
@@ -247,11 +261,11 @@ class WheelRows {
       for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = spread->times_ns[i];
     const std::string rows = fmt::format("{:.3g}", spread->rows_in_step),
                       step_s = fmt::format("{:.3g}", spread->step_s);
-    said_of_times_ = {
-        fmt::format("{} has {} rows of each time, which are {} s apart; they were spread evenly in between",
-                    name_, rows, step_s),
-        WheelTableProblem::times_spread,
-        {name_, rows, step_s}};
+    remarks.push_back(
+        {fmt::format("{} has {} rows of each time, which are {} s apart; they were spread evenly in between",
+                     name_, rows, step_s),
+         WheelTableProblem::times_spread,
+         {name_, rows, step_s}});
   }
 
   /// Of travel per interval the last row of a time holds that of the others, too.
@@ -288,7 +302,6 @@ class WheelRows {
           {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out",
            WheelTableProblem::rows_incomplete,
            {name_, std::to_string(incomplete_)}});
-    if (said_of_times_) remarks.push_back(*said_of_times_);
   }
 
   void refuse_lost_rows(std::span<const WheelSample> samples) const {
@@ -301,7 +314,8 @@ class WheelRows {
     throw Error(
         fmt::format(
             "{} has lost rows in {} places, the first before {} s: after longer steps the wheels have gone "
-            "no further than in others, so {} % of the travel is missing: record again, and log the "
+            "no further than in others, so {} % of the travel is missing: record again with a clock that "
+            "nothing sets, and log the "
             "counters themselves, of which a lost row takes nothing away",
             name_, places, first_s, percent),
         WheelTableProblem::rows_lost, {name_, places, first_s, percent});
@@ -313,9 +327,10 @@ class WheelRows {
   WheelColumns columns_;
   tables::TimeReader times_;
   std::vector<Wheels> pairs_;
+  std::vector<std::pair<std::size_t, int>>
+      falls_;  // rows with a time before that of the row above, and their lines
   std::size_t most_rows_ = 0, incomplete_ = 0;
   tables::RepeatedTimes repeated_;
-  std::optional<Remark> said_of_times_;  // if rows repeat the time of the row above
 };
 
 }  // namespace

@@ -443,7 +443,7 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
                           TrackProblem::no_time, {tables::cut_cell(row.time())});
     TrackedPose sample = row.pose();
     sample.time_ns = *time_ns;
-    builder.add(sample, table.rows());
+    builder.add_stamped(sample, table.rows());
   }
   builder.finish(plain.file);
   return track;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/sample_times.hpp"
 #include "host/truth/files/rotations.hpp"
 #include "host/truth/files/track_problem.hpp"
 
@@ -15,6 +16,8 @@ namespace {
 /// for each sample of 72 bytes, so with this limit at most four times the size of the text and 64 MiB.
 constexpr std::size_t kFreeSampleBytes = std::size_t{24} << 20;
 constexpr double kSampleBytesPerByte = 1.85;
+
+constexpr const char* kTimeFalls = "the time is before that of the row above: sort the rows";
 
 bool is_text(std::size_t slot) { return slot < kTextSlots; }
 
@@ -102,31 +105,47 @@ TrackBuilder::TrackBuilder(BodyTrack& track, std::string_view text) : track_(tra
   track_.samples.reserve(std::min(most_, lines + 1));
 }
 
-void TrackBuilder::add(const TrackedPose& sample, const tables::Rows& rows) {
+void TrackBuilder::push(const TrackedPose& sample, const tables::Rows& rows) {
   if (track_.samples.size() >= most_)
     rows.refuse("the file has more rows than can be held: split it into one file for each run");
   if (!track_.samples.empty()) {
     const TrackedPose& before = track_.samples.back();
-    if (sample.time_ns < before.time_ns)
-      rows.refuse("the time is before that of the row above: sort the rows",
-                  TrackProblem::time_not_increasing);
     repeated_.take(sample.time_ns == before.time_ns, sample.pose != before.pose);
   }
   track_.samples.push_back(sample);
 }
 
+void TrackBuilder::add(const TrackedPose& sample, const tables::Rows& rows) {
+  if (!track_.samples.empty() && sample.time_ns < track_.samples.back().time_ns)
+    rows.refuse(kTimeFalls, TrackProblem::time_not_increasing);
+  push(sample, rows);
+}
+
+void TrackBuilder::add_stamped(const TrackedPose& sample, const tables::Rows& rows) {
+  constexpr std::size_t kMostFalls = 100;
+  if (!track_.samples.empty() && sample.time_ns < track_.samples.back().time_ns && falls_.size() < kMostFalls)
+    falls_.emplace_back(track_.samples.size(), rows.line());
+  push(sample, rows);
+}
+
 void TrackBuilder::finish(std::string_view file) {
-  if (repeated_.rows() == 0) return;
-  if (repeated_.are_few()) {
-    const auto same = [](const TrackedPose& a, const TrackedPose& b) { return a.time_ns == b.time_ns; };
-    track_.samples.erase(std::unique(track_.samples.begin(), track_.samples.end(), same),
-                         track_.samples.end());
-    const std::string rows = std::to_string(repeated_.rows());
-    track_.facts.remarks.push_back({"rows left out because they have the time of the row before: " + rows,
-                                    TrackRemark::times_repeated,
-                                    {rows}});
-    return;
-  }
+  if (falls_.empty() && !repeated_.are_few()) return spread(file);
+  std::vector<TrackedPose>& samples = track_.samples;
+  mend_times_of(samples, "the ground truth", track_.facts.remarks);
+  for (const auto& [at, line] : falls_)
+    if (samples[at].time_ns < samples[at - 1].time_ns)
+      throw Error(fmt::format("{}, line {}: {}", file, line, kTimeFalls), TrackProblem::time_not_increasing,
+                  {std::string(file), std::to_string(line)});
+  const auto repeated = std::ranges::unique(samples, {}, &TrackedPose::time_ns);
+  if (repeated.empty()) return;
+  const std::string rows = std::to_string(repeated.size());
+  track_.facts.remarks.push_back({"rows left out because they have the time of the row before: " + rows,
+                                  TrackRemark::times_repeated,
+                                  {rows}});
+  samples.erase(repeated.begin(), repeated.end());
+}
+
+void TrackBuilder::spread(std::string_view file) {
   std::vector<std::int64_t> times_ns;
   for (const TrackedPose& sample : track_.samples) times_ns.push_back(sample.time_ns);
   const auto spread = tables::spread_times(std::move(times_ns));

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/formats/tables/rows.hpp"
@@ -65,16 +66,25 @@ class TrackBuilder {
  public:
   TrackBuilder(BodyTrack& track, std::string_view text);
 
-  /// Throws astro::Error with file and line if the time falls, or if there are more samples than can be held.
+  /// A sample whose time follows from its number. Throws astro::Error with file and line if the time falls, or if
+  /// there are more samples than can be held.
   void add(const TrackedPose& sample, const tables::Rows& rows);
 
-  /// Leaves samples out that repeat the time of the one before, or spreads them evenly if they are many because the times have
-  /// too few digits, with a remark. Throws astro::Error naming `file` if they are many, and not even.
+  /// A sample with a stamp, whose faults finish() mends. Throws only for too many samples.
+  void add_stamped(const TrackedPose& sample, const tables::Rows& rows);
+  /// Mends the times (sample_times.hpp), and leaves out samples that repeat one; if many do because the times have too few
+  /// digits, spreads them evenly. A remark says what was done. Throws astro::Error with file and line for times that fall
+  /// otherwise, and naming `file` if many times repeat, and not evenly.
   void finish(std::string_view file);
 
  private:
+  void push(const TrackedPose& sample, const tables::Rows& rows);
+  void spread(std::string_view file);
+
   BodyTrack& track_;
   std::size_t most_;
+  std::vector<std::pair<std::size_t, int>>
+      falls_;  // samples before those above them, the first of them, and their lines
   tables::RepeatedTimes repeated_;
 };
 

@@ -80,7 +80,7 @@ BodyTrack read_tum(std::string_view text, std::string_view file) {
       rows.refuse(1, tables::shown_cell(row.time()) + " is no time", TrackProblem::no_time,
                   {tables::cut_cell(row.time())});
     sample.time_ns = *time_ns;
-    builder.add(sample, rows);
+    builder.add_stamped(sample, rows);
   } while (rows.next_filled());
   builder.finish(file);
   return track;

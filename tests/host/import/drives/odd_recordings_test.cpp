@@ -186,6 +186,40 @@ Recording wired(const Robot& robot, const std::function<void(WheelsAt&)>& fault,
   return recording;
 }
 
+/// The time by which a clock that was set anew steps in these samples, at a moment that differs from drive to drive.
+template <class Samples>
+void step_clock(Samples& samples, double by_s) {
+  const double from_s = samples.front().time_s + 5 + static_cast<double>(samples.size() % 17);
+  for (auto& at : samples) at.time_s += at.time_s > from_s ? by_s : 0;
+}
+
+/// Samples that wait for a link: each comes at the end of the stall in which it falls, one after the other.
+struct Link {
+  double longest_stall_s = 0.36, stalled = 0.35;  // the part of the stalls among all spans
+  double every_s = 0;                             // instead, the link sends all that it has in such steps
+  double apart_s = 3e-4;                          // in a burst
+  double lost = 0;                                // part of the samples
+
+  template <class Samples>
+  void send(Samples& samples) const {
+    std::mt19937_64 random(samples.size());
+    std::uniform_real_distribution<double> even(0, 1);
+    double open_s = samples.front().time_s, last_s = -HUGE_VAL;
+    bool stalls = false;
+    Samples sent;
+    for (auto at : samples) {
+      while (open_s < at.time_s) {
+        stalls = every_s > 0 || even(random) < stalled;
+        open_s += every_s > 0 ? every_s : stalls ? longest_stall_s * even(random) : 0.05;
+      }
+      if (even(random) < lost) continue;
+      last_s = at.time_s = std::max(stalls ? open_s : at.time_s, last_s + apart_s);
+      sent.push_back(at);
+    }
+    samples = std::move(sent);
+  }
+};
+
 std::vector<OddKind> odd_kinds() {
   const auto wheels = [](std::function<std::string(const Trajectory&)> text) {
     return [=](const Robot& robot) { return robot.with(text); };
@@ -230,7 +264,7 @@ std::vector<OddKind> odd_kinds() {
   };
   constexpr double kDegree = 180 / std::numbers::pi;
   using Doubt = ImportProblem;
-  return {
+  std::vector<OddKind> kinds{
       {"as it should be", wheels([](auto& run) { return counts_in(run); })},
       {"header in camel case, whole milliseconds", wheels([](auto& run) {
          return rows("timeMs,encoderLeft,encoderRight\n", run.wheels, [](auto& at) {
@@ -546,6 +580,34 @@ std::vector<OddKind> odd_kinds() {
          return recording;
        }},
   };
+  const auto drives = [&](const std::string& name, std::function<void(Trajectory&)> change,
+                          std::vector<Kind> refused = {}) {
+    kinds.push_back({name,
+                     [=](const Robot& robot) {
+                       Robot other = robot;
+                       for (Trajectory& run : other.drives) change(run);
+                       return other.with([](const Trajectory& run) { return counts_in(run); });
+                     },
+                     std::move(refused)});
+  };
+  for (const double by_s : {0.1, -0.1, 0.2, -0.2, 0.5, -0.5, 1.0, -1.0}) {
+    drives(fmt::format("the wheels' clock steps by {} s", by_s),
+           [=](Trajectory& run) { step_clock(run.wheels, by_s); });
+    drives(fmt::format("the tracker's clock steps by {} s", by_s),
+           [=](Trajectory& run) { step_clock(run.truth, by_s); });
+  }
+  const std::pair<const char*, Link> links[] = {
+      {"a link that stalls", {}},
+      {"a link that stalls, stamps in ms", {.apart_s = 0}},
+      {"a link that stalls and loses 3 %", {.lost = 0.03}},
+      {"a link that sends every 0.1 s", {.every_s = 0.1}},
+      {"a link that sends every 0.3 s", {.every_s = 0.3}},
+  };
+  for (const auto& [name, link] : links) {
+    drives(fmt::format("wheels over {}", name), [=](Trajectory& run) { link.send(run.wheels); });
+    drives(fmt::format("ground truth over {}", name), [=](Trajectory& run) { link.send(run.truth); });
+  }
+  return kinds;
 }
 
 TEST(OddRecordings, GiveTheRightFactorsOrAreRefusedForTheirReason) {

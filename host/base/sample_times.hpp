@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/base/error.hpp"
+
+/// What the times of samples tell of the clock and the link that gave them, in the order in which the samples came.
+namespace astro {
+
+/// What was mended of a stream's times. Values: the stream; then for clock_set_back by how many seconds and after how many
+/// seconds of the stream, for bursts_evened the longest delay in seconds.
+enum class TimesRemark { clock_set_back, bursts_evened };
+
+/// Mends `times_ns`, and adds a remark for each thing that was done. `what` names the stream: "the wheels".
+///   A clock that was set back in between: the samples after the fall are as many as those before it in the time that then
+///   exists twice. What follows is set on by the fall and a period, as if no sample were missing. Samples that merely came out
+///   of order are left so.
+///   Bursts, of samples that waited for a link: each has the time at which it came. Samples of a steady clock are never late
+///   by less than the least delay near them; so their number gives their times, but for a common delay. Without bursts
+///   nothing is changed.
+/// Falls of up to three periods cannot be told from samples out of order.
+void mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks);
+
+/// The same for samples with a `time_ns`.
+template <class Sample>
+void mend_times_of(std::vector<Sample>& samples, const std::string& what, std::vector<Remark>& remarks) {
+  std::vector<std::int64_t> times_ns;
+  times_ns.reserve(samples.size());
+  for (const Sample& sample : samples) times_ns.push_back(sample.time_ns);
+  mend_times(times_ns, what, remarks);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].time_ns = times_ns[i];
+}
+
+}  // namespace astro
