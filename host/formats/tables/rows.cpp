@@ -33,8 +33,6 @@ std::size_t end_of_cell(std::string_view text, char separator) {
   return text.find(separator);
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// A decimal number taken apart: digits * 10^power. Digits that do not fit into 64 bits are dropped.
 struct Decimal {
   std::uint64_t digits = 0;
@@ -74,22 +72,59 @@ bool groups_digits(std::string_view whole, char mark) {
   return std::all_of(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(group), is_digit);
 }
 
-/// The number with a decimal point and without marks between groups of digits; "" if a comma in it can be either. Uses
-/// `buffer` if something has to be changed.
-std::string_view with_decimal_point(std::string_view cell, char separator, std::span<char> buffer) {
-  const std::size_t comma = cell.rfind(',');
-  if (comma == std::string_view::npos) return cell;
-  const std::size_t point = cell.rfind('.');
-  const bool both = point != std::string_view::npos;
-  const char decimal = both && point > comma ? '.' : ',', mark = decimal == '.' ? ',' : '.';
-  const std::string_view whole = cell.substr(0, decimal == '.' ? point : comma);
-  if (both && !groups_digits(whole, mark)) return {};
-  if (!both && separator == ',' && groups_digits(cell, ',')) return {};
+/// Marks that only group digits: a blank, one that does not break the line, wide or narrow, or an apostrophe.
+constexpr std::string_view kGroupMarks[] = {" ",           "'", "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89",
+                                            "\xE2\x80\x99"};
+
+/// The number without marks that only group digits; the cell itself if it has none, and "" if they do not stand between groups.
+/// `buffer` holds the result.
+std::string_view without_group_marks(std::string_view cell, std::span<char> buffer) {
+  if (cell.find_first_of(" '\xC2\xE2") == std::string_view::npos) return cell;
   if (cell.size() > buffer.size()) return {};
   std::size_t size = 0;
+  while (!cell.empty()) {
+    const auto* const mark = std::find_if(std::begin(kGroupMarks), std::end(kGroupMarks),
+                                          [&](std::string_view one) { return cell.starts_with(one); });
+    const bool is_mark = mark != std::end(kGroupMarks);
+    buffer[size++] = is_mark ? '\'' : cell.front();
+    cell.remove_prefix(is_mark ? mark->size() : 1);
+  }
+  const std::string_view marked(buffer.data(), size);
+  if (!groups_digits(marked.substr(0, marked.find_first_of(".,")), '\'')) return {};
+  return {buffer.data(),
+          static_cast<std::size_t>(
+              std::remove(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size), '\'') -
+              buffer.begin())};
+}
+
+/// The mark before the fraction, or '\0' if the number has none; nothing if the marks make no number, or if it can be either.
+std::optional<char> decimal_mark(std::string_view cell, NumberStyle style) {
+  const std::size_t comma = cell.rfind(','), point = cell.rfind('.');
+  if (comma == std::string_view::npos && point == std::string_view::npos) return '\0';
+  if (comma != std::string_view::npos && point != std::string_view::npos) {
+    const char decimal = point > comma ? '.' : ',';
+    if (!groups_digits(cell.substr(0, std::max(comma, point)), other_mark(decimal))) return std::nullopt;
+    return decimal;
+  }
+  const char mark = comma == std::string_view::npos ? '.' : ',';
+  if (!groups_digits(cell, mark)) return mark;
+  if (cell.find(mark) != cell.rfind(mark)) return '\0';
+  if (style.decimal != '\0') return style.decimal == mark ? mark : '\0';
+  if (mark == ',' && style.separator == ',') return std::nullopt;
+  return mark;
+}
+
+/// The number with a decimal point and without marks between groups of digits; "" if a mark in it can be either. Uses `buffer`
+/// if something has to be changed.
+std::string_view with_decimal_point(std::string_view cell, NumberStyle style, std::span<char> buffer) {
+  cell = without_group_marks(cell, buffer);
+  if (cell.find_first_of(",.") == std::string_view::npos) return cell;
+  const auto decimal = decimal_mark(cell, style);
+  if (!decimal || cell.size() > buffer.size()) return {};
+  std::size_t size = 0;
   for (const char c : cell) {
-    if (c == mark) continue;
-    buffer[size++] = c == decimal ? '.' : c;
+    if ((c == ',' || c == '.') && c != *decimal) continue;
+    buffer[size++] = c == ',' ? '.' : c;
   }
   return {buffer.data(), size};
 }
@@ -200,9 +235,9 @@ std::vector<std::string_view> split_row(const Rows& rows, char separator) {
   return cells;
 }
 
-std::optional<double> cell_number(std::string_view cell, char separator) {
+std::optional<double> cell_number(std::string_view cell, NumberStyle style) {
   std::array<char, kLongestNumber> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): written first
-  cell = with_decimal_point(cell, separator, buffer);
+  cell = with_decimal_point(cell, style, buffer);
   if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
@@ -210,15 +245,49 @@ std::optional<double> cell_number(std::string_view cell, char separator) {
   return value;
 }
 
+void MarksOfColumn::take(std::string_view cell) {
+  std::array<char, kLongestNumber> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): written first
+  cell = without_group_marks(cell, buffer);
+  const std::size_t comma = cell.rfind(','), point = cell.rfind('.');
+  if (comma == std::string_view::npos && point == std::string_view::npos) {
+    plain_ = plain_ || (!cell.empty() && std::all_of(cell.begin(), cell.end(), is_digit));
+    return;
+  }
+  if (comma != std::string_view::npos && point != std::string_view::npos) {
+    const auto decimal = decimal_mark(cell, {});
+    if (decimal) (*decimal == ',' ? comma_ : point_).decimal = true;
+    return;
+  }
+  Mark& mark = comma == std::string_view::npos ? point_ : comma_;
+  const char c = comma == std::string_view::npos ? '.' : ',';
+  if (!groups_digits(cell, c)) {
+    mark.decimal = mark.decimal || std::all_of(cell.begin(), cell.end(), [](char one) {
+                     return is_digit(one) || std::string_view(".,+-eE").find(one) != std::string_view::npos;
+                   });
+    return;
+  }
+  mark.either = true;
+  mark.groups = mark.groups || cell.find(c) != cell.rfind(c);
+  mark.ends_in_zero = mark.ends_in_zero || cell.back() == '0';
+}
+
+bool MarksOfColumn::shows(char decimal) const {
+  const Mark &own = decimal == ',' ? comma_ : point_, &other = decimal == ',' ? point_ : comma_;
+  // A fixed number of decimals is never left out, and a shortest one does not end in zero: the mark groups.
+  return own.decimal || (!other.decimal && (other.groups || (plain_ && other.either && other.ends_in_zero)));
+}
+
+bool MarksOfColumn::may_have(char decimal) const { return (decimal == ',' ? comma_ : point_).either; }
+
 std::string cut_cell(std::string_view cell) { return std::string(cell.substr(0, kMostShown)); }
 
 std::string shown_cell(std::string_view cell) {
   return "'" + cut_cell(cell) + (cell.size() > kMostShown ? "...'" : "'");
 }
 
-std::optional<std::int64_t> exact_ns(std::string_view cell, int power, char separator) {
+std::optional<std::int64_t> exact_ns(std::string_view cell, int power, NumberStyle style) {
   std::array<char, kLongestNumber> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): written first
-  cell = with_decimal_point(cell, separator, buffer);
+  cell = with_decimal_point(cell, style, buffer);
   const bool negative = !cell.empty() && cell.front() == '-';
   if (negative || (!cell.empty() && cell.front() == '+')) cell.remove_prefix(1);
   Decimal decimal = take_digits(cell);

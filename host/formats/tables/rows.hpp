@@ -56,9 +56,41 @@ bool take_cell(std::optional<std::string_view>& rest, char separator, std::strin
 void split_row(const Rows& rows, char separator, std::vector<std::string_view>& cells);
 std::vector<std::string_view> split_row(const Rows& rows, char separator);
 
+/// How the numbers of a table are written.
+struct NumberStyle {
+  char separator = ',';
+  char decimal = '\0';  // the mark before fractions, if the table shows it
+
+  constexpr NumberStyle() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a separator is all that most formats have
+  constexpr NumberStyle(char between, char before_fractions = '\0')
+      : separator(between), decimal(before_fractions) {}
+};
+
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr char other_mark(char mark) { return mark == ',' ? '.' : ','; }
+
 /// A finite number; nothing if the cell is not one. A comma is a decimal comma, as in "0,5" and "1.234,5", or groups digits,
-/// as in "1,234.5". A cell of a table that is separated by commas may be either, as "1,250", and is no number then.
-std::optional<double> cell_number(std::string_view cell, char separator);
+/// as in "1,234.5"; blanks and apostrophes group digits. "1,250" and "1.250" are read by the decimal mark of the table; without
+/// one, what stands there is a decimal mark, but a comma in a table that is separated by commas may be either, and is none.
+std::optional<double> cell_number(std::string_view cell, NumberStyle style);
+
+/// What the numbers in a column show of the decimal mark.
+class MarksOfColumn {
+ public:
+  void take(std::string_view cell);
+  /// Whether this mark stands before fractions, or the other one groups digits.
+  bool shows(char decimal) const;
+  /// Whether this mark stands where it can be either.
+  bool may_have(char decimal) const;
+
+ private:
+  struct Mark {
+    bool decimal = false, either = false, groups = false, ends_in_zero = false;
+  };
+  Mark comma_, point_;
+  bool plain_ = false;  // some whole numbers have no mark
+};
 
 /// The cell for a message: 40 characters at most.
 std::string cut_cell(std::string_view cell);
@@ -67,6 +99,6 @@ std::string shown_cell(std::string_view cell);
 
 /// A time with all its digits: a decimal number, perhaps with an exponent, times 10^power in nanoseconds
 /// (seconds: 9). Rounded to the nearest. Nothing if it is no number or does not fit into 61 bits.
-std::optional<std::int64_t> exact_ns(std::string_view cell, int power, char separator);
+std::optional<std::int64_t> exact_ns(std::string_view cell, int power, NumberStyle style);
 
 }  // namespace astro::tables

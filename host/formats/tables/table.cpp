@@ -6,6 +6,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/trimmed.hpp"
+#include "host/formats/tables/time_column.hpp"
 #include "host/formats/tables/times.hpp"
 #include "host/formats/tables/units.hpp"
 
@@ -16,7 +17,7 @@ constexpr std::size_t kLinesLookedAt = 60, kCellsLookedAt = 200;
 
 /// The separator of "sep=;", which spreadsheets write and read as the first line.
 std::optional<char> stated_separator(std::string_view line) {
-  line = trimmed(line, " \t\"");
+  line = trimmed(line, "\"");
   if (line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP="))) return line[4];
   return std::nullopt;
 }
@@ -86,16 +87,20 @@ bool are_units(std::span<const std::string_view> cells) {
 }  // namespace
 
 bool is_value(std::string_view cell, char separator) {
-  return cell_number(cell, separator) || cell == "nan" || cell == "NaN" || cell == "-nan" ||
-         written_time(cell);
+  return cell_number(cell, separator) || cell_number(cell, {separator, '.'}) || cell == "nan" ||
+         cell == "NaN" || cell == "-nan" || written_time(cell);
 }
 
 Table::Table(std::string_view text, std::string_view file)
     : text_(text), file_(file), rows_(text, file), before_first_(rows_) {
   find_separator();
   find_names();
-  if (names_.size() < 2 && columns_ > 1) names_.clear();  // a title
+  if (names_.size() < 2 && columns_ > 1) {  // a title
+    names_.clear();
+    line_of_names_ = 0;
+  }
   rewind();
+  find_decimal_mark();
 }
 
 void Table::find_separator() {
@@ -142,6 +147,27 @@ void Table::find_names() {
     }
     take_names(rows, false);
   }
+}
+
+/// A table has one decimal mark. If the cells leave it open, it is the one in the column of times, whose values are closer
+/// together than those of counts.
+void Table::find_decimal_mark() {
+  constexpr std::size_t kRowsLookedAt = 2000;
+  std::vector<MarksOfColumn> columns(std::min(std::max(columns_, names_.size()), kCellsLookedAt));
+  for (std::size_t row = 0; row < kRowsLookedAt && next(); ++row)
+    for (std::size_t i = 0; i < std::min(columns.size(), cells_.size()); ++i) columns[i].take(cells_[i]);
+  rewind();
+  const auto any = [&](bool (MarksOfColumn::*test)(char) const, char mark) {
+    return std::ranges::any_of(columns, [&](const MarksOfColumn& one) { return (one.*test)(mark); });
+  };
+  const bool comma = any(&MarksOfColumn::shows, ','), point = any(&MarksOfColumn::shows, '.');
+  if (comma != point) decimal_ = comma ? ',' : '.';
+  if (comma || point || !any(&MarksOfColumn::may_have, ',') || !any(&MarksOfColumn::may_have, '.')) return;
+  const auto time =
+      std::ranges::find_if(names_, [](const std::string& name) { return time_name(name).has_value(); });
+  const auto at = time == names_.end() ? 0 : static_cast<std::size_t>(time - names_.begin());
+  if (at < columns.size() && columns[at].may_have(',') != columns[at].may_have('.'))
+    decimal_ = columns[at].may_have(',') ? ',' : '.';
 }
 
 /// Each line above the rows may be that of the names; the last one is, unless it has units.

@@ -31,6 +31,8 @@ class Table {
   /// The number of cells of most rows.
   std::size_t columns() const { return columns_; }
   char separator() const { return separator_; }
+  /// With the decimal mark, if the cells show it.
+  NumberStyle style() const { return {separator_, decimal_}; }
 
   /// The next row; false after the last.
   bool next();
@@ -49,6 +51,7 @@ class Table {
   void find_separator();
   void find_names();
   void take_names(const Rows& line, bool comment);
+  void find_decimal_mark();
 
   std::string_view text_, file_;
   Rows rows_, before_first_;
@@ -56,7 +59,7 @@ class Table {
   std::vector<std::string> names_;
   std::size_t columns_ = 0;
   int line_of_names_ = 0;
-  char separator_ = '\0';
+  char separator_ = '\0', decimal_ = '\0';
 };
 
 /// Whether a cell is a number, NaN or a written time: what stands in rows and not above them.

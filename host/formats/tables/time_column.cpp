@@ -10,7 +10,7 @@
 namespace astro::tables {
 namespace {
 
-constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+constexpr std::int64_t kDay_ns = 86'400'000'000'000, kHour_ns = kDay_ns / 24;
 constexpr int kSeconds = 9;  // power of ten, to nanoseconds
 
 std::string joined(const std::vector<std::string>& words) {
@@ -74,8 +74,8 @@ void TimeColumns::settle(Table& table) {
   table.rewind();
   while (whole && table.next()) {
     const std::string_view cell = table.cell(*at);
-    const auto part = cell_number(table.cell(*fraction), table.separator());
-    const auto value = cell_number(cell, table.separator());
+    const auto part = cell_number(table.cell(*fraction), table.style());
+    const auto value = cell_number(cell, table.style());
     written = !value && written_time(cell);
     if (!part || (!value && !written)) continue;
     any = true;
@@ -107,7 +107,7 @@ std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns) 
       table.rewind();
       return TimeFormat{*kind, 0};
     }
-    const auto value = cell_number(cell, table.separator());
+    const auto value = cell_number(cell, table.style());
     if (!value) continue;
     if (times.empty()) first = *value;
     several = several || !times.empty();
@@ -122,18 +122,25 @@ std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns) 
 }
 
 std::optional<std::int64_t> TimeReader::read(std::string_view cell, std::string_view fraction) {
-  auto time = time_ns(cell, format_, separator_);
+  auto time = time_ns(cell, format_, style_);
   if (!time) return std::nullopt;
   if (columns_.fraction) {
-    const auto more = exact_ns(fraction, columns_.fraction_power, separator_);
+    const auto more = exact_ns(fraction, columns_.fraction_power, style_);
     if (!more) return std::nullopt;
     *time += *more;
   }
   if (format_.kind != TimeKind::clock) return time;
-  *time += days_ns_;
+  *time += passed_ns_;
   if (last_ && *time < *last_ - kDay_ns / 2) {
-    days_ns_ += kDay_ns;
+    passed_ns_ += kDay_ns;
     *time += kDay_ns;
+  }
+  // Minutes and seconds alone go on after the hour.
+  const bool minutes =
+      std::count(cell.begin(), cell.end(), ':') == 1 && cell.find_first_of(".,") != cell.npos;
+  if (minutes && last_ && *time < *last_ - kHour_ns / 2) {
+    passed_ns_ += kHour_ns;
+    *time += kHour_ns;
   }
   last_ = time;
   return time;

@@ -43,8 +43,8 @@ std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns);
 /// Reads the times of successive rows. Times of day go on after midnight.
 class TimeReader {
  public:
-  TimeReader(const TimeColumns& columns, TimeFormat format, char separator)
-      : columns_(columns), format_(format), separator_(separator) {}
+  TimeReader(const TimeColumns& columns, TimeFormat format, NumberStyle style)
+      : columns_(columns), format_(format), style_(style) {}
 
   /// Nothing if the cell is no time of the format.
   std::optional<std::int64_t> read(std::string_view cell, std::string_view fraction = {});
@@ -53,8 +53,8 @@ class TimeReader {
  private:
   TimeColumns columns_;
   TimeFormat format_;
-  char separator_;
-  std::int64_t days_ns_ = 0;
+  NumberStyle style_;
+  std::int64_t passed_ns_ = 0;
   std::optional<std::int64_t> last_;
 };
 

@@ -14,13 +14,11 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// Takes up to `most` digits off the text; nothing if it does not begin with one.
 std::optional<int> take_whole(std::string_view& text, std::size_t most) {
   int value = 0;
   std::size_t digits = 0;
-  for (; digits < most && digits < text.size() && is_decimal_digit(text[digits]); ++digits)
+  for (; digits < most && digits < text.size() && is_digit(text[digits]); ++digits)
     value = 10 * value + (text[digits] - '0');
   if (digits == 0) return std::nullopt;
   text.remove_prefix(digits);
@@ -33,27 +31,67 @@ bool take_mark(std::string_view& text, char mark) {
   return true;
 }
 
-/// hh:mm or hh:mm:ss, perhaps with a fraction.
-std::optional<std::int64_t> take_clock(std::string_view& text) {
-  const auto hour = take_whole(text, 2);
-  if (!hour || *hour > 24 || !take_mark(text, ':')) return std::nullopt;
-  const auto minute = take_whole(text, 2);
-  if (!minute || *minute > 59) return std::nullopt;
-  std::int64_t ns = (*hour * 60 + *minute) * 60 * kSecond_ns;
-  if (!take_mark(text, ':')) return ns;
-  const auto second = take_whole(text, 2);
-  if (!second || *second > 60) return std::nullopt;
-  ns += *second * kSecond_ns;
-  // Some loggers write milliseconds behind a third colon.
-  if (!take_mark(text, '.') && !take_mark(text, ',') && !take_mark(text, ':')) return ns;
-  std::int64_t place = kSecond_ns / 10;
-  if (text.empty() || !is_decimal_digit(text.front())) return std::nullopt;
-  for (; !text.empty() && is_decimal_digit(text.front()); text.remove_prefix(1), place /= 10)
+/// The digits behind a point, in nanoseconds.
+std::optional<std::int64_t> take_fraction(std::string_view& text) {
+  std::int64_t ns = 0, place = kSecond_ns / 10;
+  if (text.empty() || !is_digit(text.front())) return std::nullopt;
+  for (; !text.empty() && is_digit(text.front()); text.remove_prefix(1), place /= 10)
     ns += (text.front() - '0') * place;
   return ns;
 }
 
-/// YYYY-MM-DD, YYYY/MM/DD or DD.MM.YYYY, in days since 1970.
+bool begins_fraction(std::string_view text) { return text.starts_with('.') || text.starts_with(','); }
+
+/// "AM" or " p.m."; adds twelve hours to an hour after noon, and takes them off midnight. Nothing if the hour is none of a
+/// clock with twelve.
+std::optional<std::int64_t> take_half_day(std::string_view& text, std::int64_t ns, int hour) {
+  std::string word;
+  std::string_view rest = text;
+  while (word.size() < 2 && !rest.empty()) {
+    if (rest.front() != ' ' && rest.front() != '.') word += static_cast<char>(rest.front() & ~0x20);
+    rest.remove_prefix(1);
+  }
+  if (word != "AM" && word != "PM") return ns;
+  if (rest.starts_with('.')) rest.remove_prefix(1);
+  if (hour < 1 || hour > 12) return std::nullopt;
+  text = rest;
+  return ns + ((word == "PM" ? 12 : 0) - (hour == 12 ? 12 : 0)) * 3600 * kSecond_ns;
+}
+
+/// hh:mm, hh:mm:ss or mm:ss.f; seconds perhaps with a fraction, or with three or six digits of it behind a third colon, as some
+/// loggers write it; two digits there may be frames of a film. AM or PM may follow.
+std::optional<std::int64_t> take_clock(std::string_view& text) {
+  const auto first = take_whole(text, 2);
+  if (!first || *first > 59 || !take_mark(text, ':')) return std::nullopt;
+  const auto minute = take_whole(text, 2);
+  if (!minute || *minute > 59) return std::nullopt;
+  if (begins_fraction(text)) {
+    text.remove_prefix(1);
+    const auto fraction = take_fraction(text);
+    if (!fraction) return std::nullopt;
+    return (*first * 60 + *minute) * kSecond_ns + *fraction;
+  }
+  if (*first > 24) return std::nullopt;
+  std::int64_t ns = (*first * 60 + *minute) * 60 * kSecond_ns;
+  if (take_mark(text, ':')) {
+    const auto second = take_whole(text, 2);
+    if (!second || *second > 60) return std::nullopt;
+    ns += *second * kSecond_ns;
+    const std::size_t digits =
+        text.substr(std::min<std::size_t>(1, text.size())).find_first_not_of("0123456789");
+    const std::size_t behind =
+        (digits == std::string_view::npos ? text.size() - (text.empty() ? 0 : 1) : digits);
+    if (begins_fraction(text) || (text.starts_with(':') && (behind == 3 || behind == 6))) {
+      text.remove_prefix(1);
+      const auto fraction = take_fraction(text);
+      if (!fraction) return std::nullopt;
+      ns += *fraction;
+    }
+  }
+  return take_half_day(text, ns, *first);
+}
+
+/// YYYY-MM-DD, YYYY/MM/DD, DD.MM.YYYY, or DD/MM/YYYY and MM/DD/YYYY if only one of them is a date; in days since 1970.
 std::optional<std::int64_t> take_days(std::string_view& text) {
   const auto first = take_whole(text, 4);
   if (!first || text.empty()) return std::nullopt;
@@ -64,11 +102,18 @@ std::optional<std::int64_t> take_days(std::string_view& text) {
   if (!second || !take_mark(text, mark)) return std::nullopt;
   const auto third = take_whole(text, 4);
   if (!third) return std::nullopt;
-  const bool day_first = mark == '.';
-  const std::chrono::year_month_day date{
-      std::chrono::year(day_first ? *third : *first), std::chrono::month(static_cast<unsigned>(*second)),
-      std::chrono::day(static_cast<unsigned>(day_first ? *first : *third))};
-  const int year = static_cast<int>(date.year());
+  int year = *first, month = *second, day = *third;
+  if (mark == '.' || (mark == '/' && *third > 31)) {
+    // Which of two small numbers is the month, slashes do not show.
+    if (mark == '/' && *first <= 12 && *second <= 12 && *first != *second) return std::nullopt;
+    const bool month_first = mark == '/' && *second > 12;
+    year = *third;
+    month = month_first ? *first : *second;
+    day = month_first ? *second : *first;
+  }
+  const std::chrono::year_month_day date{std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
   if (!date.ok() || year < 1970 || year > 2200) return std::nullopt;
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
@@ -105,7 +150,7 @@ constexpr int kPowers[] = {9, 6, 3, 0};
 
 }  // namespace
 
-std::optional<std::int64_t> time_ns(std::string_view cell, TimeFormat format, char separator) {
+std::optional<std::int64_t> time_ns(std::string_view cell, TimeFormat format, NumberStyle style) {
   switch (format.kind) {
     case TimeKind::date:
       return date_ns(cell);
@@ -114,7 +159,7 @@ std::optional<std::int64_t> time_ns(std::string_view cell, TimeFormat format, ch
     case TimeKind::number:
       break;
   }
-  return exact_ns(cell, format.power, separator);
+  return exact_ns(cell, format.power, style);
 }
 
 std::optional<TimeKind> written_time(std::string_view cell) {

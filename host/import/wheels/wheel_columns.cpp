@@ -128,7 +128,7 @@ int rank_of(const Wheel& wheel) {
   constexpr std::array kOrder{Quantity::counts,       Quantity::angle,         Quantity::length,
                               Quantity::counts_speed, Quantity::angular_speed, Quantity::speed};
   const auto at = std::find(kOrder.begin(), kOrder.end(), wheel.quantity) - kOrder.begin();
-  return static_cast<int>(at) + (wheel.sure ? 0 : 10) + (wheel.per_interval ? 1 : 0);
+  return 2 * static_cast<int>(at) + (wheel.sure ? 0 : 20) + (wheel.per_interval ? 1 : 0);
 }
 
 bool are_whole_numbers(tables::Table& table, const std::vector<std::size_t>& columns) {
@@ -137,11 +137,13 @@ bool are_whole_numbers(tables::Table& table, const std::vector<std::size_t>& col
   bool whole = true, any = false;
   for (std::size_t row = 0; whole && row < kRowsLookedAt && table.next(); ++row)
     for (const std::size_t column : columns) {
-      const auto value = tables::cell_number(table.cell(column), table.separator());
+      const auto value = tables::cell_number(table.cell(column), table.style());
       if (!value) continue;
       any = true;
+      const char decimal = table.style().decimal;
+      const std::string fractions = std::string("eE") + (decimal == '\0' ? ".," : std::string(1, decimal));
       whole = whole && *value == std::floor(*value) &&
-              table.cell(column).find_first_of(".,eE") == std::string_view::npos;
+              table.cell(column).find_first_of(fractions) == std::string_view::npos;
     }
   table.rewind();
   return whole && any;
@@ -167,10 +169,6 @@ WheelUnit unit_of(Quantity quantity) {
     if (shown.size() < 40) shown.push_back(tables::cut_cell(name));
   throw UnclearChoice(fmt::format("{}: {}; the columns are {}", table.rows().file(), why, listed(shown)),
                       shown, WheelProblem::columns_unclear);
-}
-
-std::string quoted(const std::vector<std::string>& names, std::size_t column) {
-  return "'" + tables::cut_cell(names[column]) + "'";
 }
 
 }  // namespace
@@ -221,14 +219,16 @@ WheelColumns wheel_columns(const std::vector<std::string>& names, tables::Table&
     columns.insert(columns.end(), out.right.begin(), out.right.end());
     if (out.speeds)
       refuse(table, names,
-             quoted(names, out.left.front()) + " does not say its unit: rad/s, rpm and m/s are possible");
+             tables::shown_cell(names[out.left.front()]) +
+                 " does not say its unit: rad/s, rpm and m/s are possible");
     if (!are_whole_numbers(table, columns))
       refuse(table, names,
-             quoted(names, out.left.front()) + " does not say its unit: counts, rad and m are possible");
-    out.remarks.push_back(
-        {fmt::format("{} holds whole numbers, which are taken as counts", quoted(names, out.left.front())),
-         WheelRemark::counts_assumed,
-         {names[out.left.front()]}});
+             tables::shown_cell(names[out.left.front()]) +
+                 " does not say its unit: counts, rad and m are possible");
+    out.remarks.push_back({fmt::format("{} holds whole numbers, which are taken as counts",
+                                       tables::shown_cell(names[out.left.front()])),
+                           WheelRemark::counts_assumed,
+                           {names[out.left.front()]}});
   }
   return out;
 }

@@ -33,6 +33,7 @@ struct LostRows {
   double part = 0;            // of the whole travel, missing with them
 };
 
+const std::string kNoTime = "is not a time, which is " + std::string(tables::kTimesRead);
 constexpr double kEvenStep = 0.2, kLongerStep = 1.5;  // of the usual step
 constexpr double kMostlyEven = 0.75;                  // of all steps
 constexpr double kHeldTravel = 0.75;                  // of the expected travel; more: the logger was late
@@ -90,7 +91,7 @@ class WheelRows {
         name_(name),
         given_(given),
         columns_(wheel_columns(tables::names_with(given.columns, table_), table_)),
-        times_(columns_.time, format(), table_.separator()),
+        times_(columns_.time, format(), table_.style()),
         pairs_(columns_.left.size()) {
     table_.require_names();
     columns_.per_interval = (columns_.per_interval || given.per_interval) && !columns_.speeds;
@@ -130,7 +131,8 @@ class WheelRows {
 
   [[noreturn]] void refuse_cell(std::size_t at, const std::string& what, WheelTableProblem problem) const {
     const std::string_view cell = table_.cell(at);
-    const bool either = table_.separator() == ',' && cell.find(',') != std::string_view::npos;
+    const bool either = table_.separator() == ',' && table_.style().decimal == '\0' &&
+                        cell.find(',') != std::string_view::npos;
     table_.rows().refuse(static_cast<int>(at) + 1,
                          tables::shown_cell(cell) + ' ' + what +
                              (either ? ": its comma may be a decimal comma, or group the digits" : ""),
@@ -143,14 +145,14 @@ class WheelRows {
     const auto found = tables::time_format(table_, columns_.time);
     if (!found) {
       table_.next();
-      if (tables::cell_number(table_.cell(at), table_.separator()))
+      if (tables::cell_number(table_.cell(at), table_.style()))
         throw Error(
             fmt::format("{}, column {}: the times do not show their unit: s, ms, us and ns are possible",
                         name_, at + 1),
             WheelTableProblem::time_unit_unknown, {name_, std::to_string(at + 1)});
       table_.cells().empty()
           ? refuse_line("the table ends with fewer than two rows of wheels", WheelTableProblem::too_few_rows)
-          : refuse_cell(at, "is not a time", WheelTableProblem::not_a_time);
+          : refuse_cell(at, kNoTime, WheelTableProblem::not_a_time);
     }
     if (!columns_.time.power && found->kind == tables::TimeKind::number) {
       const std::string unit(tables::unit_text(found->power));
@@ -178,7 +180,7 @@ class WheelRows {
   }
 
   double value(std::size_t at) const {
-    const auto value = tables::cell_number(table_.cell(at), table_.separator());
+    const auto value = tables::cell_number(table_.cell(at), table_.style());
     if (!value) refuse_cell(at, "is not a number", WheelTableProblem::not_a_number);
     return *value * columns_.scale;
   }
@@ -202,7 +204,7 @@ class WheelRows {
       return;
     }
     const auto time_ns = times_.read(table_);
-    if (!time_ns) refuse_cell(*columns_.time.at, "is not a time", WheelTableProblem::not_a_time);
+    if (!time_ns) refuse_cell(*columns_.time.at, kNoTime, WheelTableProblem::not_a_time);
     const Wheels& first = pairs_.front();
     constexpr std::size_t kMostFalls = 100;
     if (!first.empty() && *time_ns < first.back().time_ns && falls_.size() < kMostFalls)

@@ -37,7 +37,7 @@ std::optional<Column> find(const std::vector<std::string>& names,
 
 double value(const tables::Table& table, const Column& column) {
   const std::string_view cell = table.cell(column.at);
-  const auto number = tables::cell_number(cell, table.separator());
+  const auto number = tables::cell_number(cell, table.style());
   if (!number)
     table.rows().refuse(static_cast<int>(column.at) + 1, tables::shown_cell(cell) + " is no number",
                         TruthFileProblem::not_a_number, {tables::cut_cell(cell)});

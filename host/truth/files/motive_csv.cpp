@@ -20,7 +20,7 @@ constexpr double kTimeRounding_s = 1.05e-3;
 PoseColumns motive_columns(const MotiveHeader& header, const MotiveBody& body, const std::string& order,
                            const tables::Rows& rows) {
   PoseColumns columns;
-  columns.separator = header.separator;
+  columns.style = header.separator;
   columns[Slot::frame] = header.frame_column;
   columns[Slot::time] = header.time_column;
   constexpr Slot kPosition[] = {Slot::x, Slot::y, Slot::z};

@@ -168,9 +168,9 @@ PlainHeader& header_of(std::vector<PlainHeader>& headers, const std::string& bod
 }
 
 /// Uses the four columns of a quaternion, else the three angles, else a heading, else no rotation.
-void settle_columns(PlainHeader& header, const tables::TimeColumns& time, char separator) {
+void settle_columns(PlainHeader& header, const tables::TimeColumns& time, tables::NumberStyle style) {
   PoseColumns& columns = header.columns;
-  columns.separator = separator;
+  columns.style = style;
   if (!header.time.at) header.time = time;
   columns[Slot::time] = header.time.at ? static_cast<int>(*header.time.at) : -1;
   constexpr std::array kParts{Slot::rx, Slot::ry, Slot::rz, Slot::rw};
@@ -217,7 +217,7 @@ std::vector<PlainHeader> plain_headers(const Table& table, const std::vector<std
     if (*slot < Slot::rx || *slot > Slot::rw)
       take_unit(table.rows(), *slot, static_cast<int>(i), name.unit, header);
   }
-  for (PlainHeader& header : headers) settle_columns(header, first_time, table.separator());
+  for (PlainHeader& header : headers) settle_columns(header, first_time, table.style());
   std::erase_if(headers, [](const PlainHeader& header) {
     const PoseColumns& columns = header.columns;
     return columns[Slot::x] < 0 || columns[Slot::y] < 0 || columns[Slot::time] < 0;
@@ -340,7 +340,7 @@ class DirectionMatch {
 /// Whether angles without a unit are degrees: the directions in which the body moves show it, or the size of the angles.
 bool are_degrees(Table& table, const PoseColumns& columns, Slot heading) {
   const auto number = [&](Slot slot) {
-    return tables::cell_number(table.cell(static_cast<std::size_t>(columns[slot])), table.separator());
+    return tables::cell_number(table.cell(static_cast<std::size_t>(columns[slot])), table.style());
   };
   double least_x = HUGE_VAL, most_x = -HUGE_VAL, most_angle = 0;
   table.rewind();
@@ -431,7 +431,7 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
   describe_plain(header, track.facts);
   settle_angles(table, header, track.facts);
   const tables::TimeFormat format = settle_times(table, header, track.facts);
-  tables::TimeReader times(header.time, format, table.separator());
+  tables::TimeReader times(header.time, format, table.style());
   PoseRow row(header.columns);
   TrackBuilder builder(track, plain.text);
   while (table.next()) {
@@ -439,8 +439,10 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
     row.read(table.rows());
     const auto time_ns = times.read(row.time(), row.time_fraction());
     if (!time_ns)
-      table.rows().refuse(header.columns[Slot::time] + 1, tables::shown_cell(row.time()) + " is no time",
-                          TrackProblem::no_time, {tables::cut_cell(row.time())});
+      table.rows().refuse(
+          header.columns[Slot::time] + 1,
+          tables::shown_cell(row.time()) + " is no time, which is " + std::string(tables::kTimesRead),
+          TrackProblem::no_time, {tables::cut_cell(row.time())});
     TrackedPose sample = row.pose();
     sample.time_ns = *time_ns;
     builder.add_stamped(sample, table.rows());

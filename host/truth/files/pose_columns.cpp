@@ -44,7 +44,7 @@ void PoseRow::read(const tables::Rows& rows) {
   present_ = 0;
   text_ = {};
   std::optional<std::string_view> rest = rows.text();
-  const char separator = columns_.separator;
+  const char separator = columns_.style.separator;
   std::string_view cell;
   for (std::size_t i = 0; i < slot_of_.size() && tables::take_cell(rest, separator, cell); ++i) {
     const std::size_t slot = slot_of_[i];
@@ -53,7 +53,7 @@ void PoseRow::read(const tables::Rows& rows) {
       text_[slot] = cell;
       continue;
     }
-    const auto value = tables::cell_number(cell, separator);
+    const auto value = tables::cell_number(cell, columns_.style);
     if (value) {
       number_[slot] = *value;
       present_ |= 1U << slot;

@@ -21,7 +21,7 @@ inline constexpr std::size_t kSlots = 13, kTextSlots = 3;
 struct PoseColumns {
   /// The column of each slot, from 0; -1 if the table has none.
   std::array<int, kSlots> column;
-  char separator = ',';
+  tables::NumberStyle style;
   RotationKind rotation = RotationKind::none;
   std::string_view euler_order = "XYZ";
   double metres = 1;   // of the file's unit of length

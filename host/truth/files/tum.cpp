@@ -20,7 +20,7 @@ char tum_separator(std::string_view line) {
 
 PoseColumns tum_columns(FileKind kind, char separator) {
   PoseColumns columns;
-  columns.separator = separator;
+  columns.style = separator;
   columns.rotation = RotationKind::quaternion;
   constexpr Slot kTum[] = {Slot::time, Slot::x, Slot::y, Slot::z, Slot::rx, Slot::ry, Slot::rz, Slot::rw};
   constexpr Slot kEuroc[] = {Slot::time, Slot::x, Slot::y, Slot::z, Slot::rw, Slot::rx, Slot::ry, Slot::rz};

@@ -62,7 +62,7 @@ BodyTrack read_vicon_body(std::string_view text, std::string_view file, const Vi
   track.name = body.name.name;
   track.id = body.name.id;
   PoseRow row(body.columns);
-  FrameNumbers frames(body.columns.separator);
+  FrameNumbers frames(body.columns.style.separator);
   std::optional<std::int64_t> first;
   TrackBuilder builder(track, text);
   std::int64_t between = 0;

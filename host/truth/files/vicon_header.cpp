@@ -99,7 +99,7 @@ void read_section_header(tables::Rows& rows, char separator, std::vector<ViconBo
     if (columns[Slot::x] < 0 || columns[Slot::y] < 0 || columns[Slot::z] < 0) continue;
     if (bodies.size() >= kMostViconBodies) rows.refuse("the file has more than 10000 bodies");
     body.name = {subject_of(without_prefix(names[i])), std::string(without_prefix(names[i]))};
-    body.columns.separator = separator;
+    body.columns.style = separator;
     body.rate_hz = *rate;
     body.section_line = section_line;
     take_units(rows, units, body);

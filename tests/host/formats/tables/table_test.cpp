@@ -102,12 +102,36 @@ TEST(CellNumber, UnderstandsEveryDecimalMarkThatIsOnlyOneThing) {
   EXPECT_EQ(number("1,250"), 1.25) << "a comma in a table of semicolons";
   EXPECT_EQ(number("1.234,5"), 1234.5);
   EXPECT_EQ(number("1,234,567.5"), 1234567.5);
+  EXPECT_EQ(number("1,234,567"), 1234567);
   EXPECT_EQ(number("-12,5", ','), -12.5) << "in quotes";
   EXPECT_EQ(number("0,125", ','), 0.125) << "no group begins with a zero";
   EXPECT_EQ(number("1,250", ','), std::nullopt) << "1.25 or 1250";
-  for (const char* bad :
-       {"", "x", "1,2,3", "1.2.3", "12 3", "1,23,456.5", "nan", "inf", "0x10", "1e999", ",", "1.234,56.7"})
+  for (const char* bad : {"", "x", "1,2,3", "1.2.3", "12 3", "1,23,456.5", "nan", "inf", "0x10", "1e999", ",",
+                          "1.234,56.7", "1 2345"})
     EXPECT_EQ(number(bad), std::nullopt) << bad;
+}
+
+/// The first number of the last column, and the mark that the table shows.
+std::optional<double> last_number(std::string_view text) {
+  Table table(text, "t.csv");
+  EXPECT_TRUE(table.next());
+  return cell_number(table.cell(table.columns() - 1), table.style());
+}
+
+TEST(CellNumber, TheTableShowsWhichMarkIsTheDecimalOne) {
+  EXPECT_EQ(last_number("t;l\n3,120;1.005\n3,14;1.010\n"), 1005) << "a decimal comma in the times";
+  EXPECT_EQ(last_number("t;l\n3,120;1.005\n3,140;1.010\n"), 1005)
+      << "each may be either: the times have decimals";
+  EXPECT_EQ(last_number("t\tl\n3.12\t1,005\n3.14\t1,010\n"), 1005);
+  EXPECT_EQ(last_number("t,l\n3.12,\"1,005\"\n3.14,\"1,010\"\n"), 1005);
+  EXPECT_EQ(last_number("t\tl\n3\t1.005\n4\t1.010\n5\t985\n"), 1005)
+      << "no decimals end in zero or are left out";
+  EXPECT_EQ(last_number("t\tl\n3\t1.005\n4\t1.01\n5\t1\n"), 1.005);
+  EXPECT_EQ(last_number("t;l\n3,120;1\xC2\xA0"
+                        "005,5\n3,14;1\n"),
+            1005.5)
+      << "a blank that does not break";
+  EXPECT_EQ(last_number("t;l\n0.5;1'005\n0.6;1\n"), 1005);
 }
 
 TEST(Times, AreExact) {
@@ -133,8 +157,15 @@ TEST(Times, DatesAndTimesOfDayAreRead) {
   EXPECT_EQ(time_ns("01.05.2024 12:34:56,5", date, ';'), 1'714'566'896 * second + second / 2);
   EXPECT_EQ(time_ns("14:05:09.25", clock, ','), 50'709 * second + second / 4);
   EXPECT_EQ(time_ns("14:05:09:250", clock, ','), 50'709 * second + second / 4);
-  for (const char* bad : {"2024-13-01 00:00:00", "2024-02-30T00:00:00", "25:00:00", "12:60:00", "2024-05-01",
-                          "12:34:56x", "12:34:56."})
+  EXPECT_EQ(time_ns("2:05:09.25 PM", clock, ','), 50'709 * second + second / 4);
+  EXPECT_EQ(time_ns("12:59 PM", clock, ','), 46'740 * second);
+  EXPECT_EQ(time_ns("12:01 a.m.", clock, ','), 60 * second);
+  EXPECT_EQ(time_ns("58:40.1", clock, ','), 3'520 * second + second / 10) << "minutes";
+  EXPECT_EQ(time_ns("5/31/2024 2:34:56 PM", date, ','), time_ns("31.05.2024 14:34:56", date, ','));
+  EXPECT_EQ(time_ns("31/05/2024 14:34:56", date, ','), time_ns("2024-05-31T14:34:56Z", date, ','));
+  for (const char* bad :
+       {"14:05:09:25", "13:00 PM", "05/03/2024 09:58:40", "2024-13-01 00:00:00", "2024-02-30T00:00:00",
+        "25:00:00", "12:60:00", "2024-05-01", "12:34:56x", "12:34:56."})
     EXPECT_FALSE(written_time(bad)) << bad;
 }
 
