@@ -46,12 +46,7 @@ Runs together(Runs runs, const Runs& more) {
   return runs;
 }
 
-/// With e, because squares and circles have one set of factors only with it.
-MlEstimate estimate_with_e(const Runs& runs) {
-  MlOptions options;
-  options.with_e = true;
-  return estimate_ml(runs, {1, 1, kOptiodomWheelbase_m}, options);
-}
+MlEstimate estimate_of(const Runs& runs) { return estimate_ml(runs, {1, 1, kOptiodomWheelbase_m}); }
 
 /// How far two estimates are apart.
 struct Apart {
@@ -91,17 +86,17 @@ Apart compared(const char* what, const MlEstimate& a, const MlEstimate& b) {
 }
 
 TEST_F(OptiodomStandardErrors, HoldBetweenSetsOfTheSameKind) {
-  const MlEstimate first = estimate_with_e(first_squares()), second = estimate_with_e(second_squares());
+  const MlEstimate first = estimate_of(first_squares()), second = estimate_of(second_squares());
   EXPECT_LT(compared("squares and squares", first, second).chi_square, kOneInTwenty);
 }
 
 TEST_F(OptiodomStandardErrors, HoldAcrossSquaresAndCircles) {
   const Runs first = first_squares(), second = second_squares();
-  const MlEstimate of_circles = estimate_with_e(circles());
-  const Apart by_first = compared("first squares and circles", estimate_with_e(first), of_circles);
-  const Apart by_second = compared("second squares and circles", estimate_with_e(second), of_circles);
+  const MlEstimate of_circles = estimate_of(circles());
+  const Apart by_first = compared("first squares and circles", estimate_of(first), of_circles);
+  const Apart by_second = compared("second squares and circles", estimate_of(second), of_circles);
   const Apart by_both =
-      compared("both squares and circles", estimate_with_e(together(first, second)), of_circles);
+      compared("both squares and circles", estimate_of(together(first, second)), of_circles);
   for (const Apart& found : {by_first, by_second, by_both}) {
     EXPECT_LT(found.chi_square, kOneInAHundred);
     for (const double z : found.z) EXPECT_LT(std::abs(z), 3) << "S is the furthest";
@@ -124,7 +119,7 @@ TEST_F(OptiodomStandardErrors, HoldBetweenHalvesOfSets) {
     halves.emplace_back();
     for (std::size_t split = 0; split < 3; ++split)
       for (const bool other : {false, true})
-        halves.back().push_back(estimate_with_e(half(runs, split, 3 + split, other)));
+        halves.back().push_back(estimate_of(half(runs, split, 3 + split, other)));
   }
   struct Mean {
     double claimed = 0, by_noise_alone = 0;
@@ -159,8 +154,8 @@ TEST_F(OptiodomStandardErrors, HoldBetweenHalvesOfSets) {
 }
 
 TEST_F(OptiodomStandardErrors, CountErrorsThatReturnAtTheSamePlacesOfTheSquare) {
-  const MlEstimate first = estimate_with_e(first_squares());
-  const MlEstimate both = estimate_with_e(together(first_squares(), second_squares()));
+  const MlEstimate first = estimate_of(first_squares());
+  const MlEstimate both = estimate_of(together(first_squares(), second_squares()));
   std::printf("widening of the variances: %.2f of six squares, %.2f of twelve; dispersion of runs %.2f\n",
               first.widening, both.widening, both.dispersion);
   // Between runs there is no sign of them: the drives of the same square agree better than their noise says.

@@ -31,7 +31,7 @@ bool contains(std::span<const std::size_t> members, std::size_t run) {
 
 /// The information of all runs but the members of a group.
 Pool without(const MlFit& fit, std::span<const std::size_t> members) {
-  Pool others(fit.fixed(), fit.unknowns().front()[kE]);
+  Pool others(fit.fixed(), fit.prior());
   for (std::size_t i = 0; i < fit.sums().size(); ++i) {
     others.know(fit.sums()[i].session);
     if (!contains(members, i)) others.add(reduced(fit.sums()[i], fit.fixed(), 0));
@@ -158,7 +158,7 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   MlOptions with_noise = options;
   with_noise.noise = all.noise;
   with_noise.spacing_m = all.spacing_m;
-  with_noise.with_e = all.factors.e != 0;
+  with_noise.widening = all.widening;
   const PreparedRuns prepared = prepare(runs, in_use, options.clock_known, Density::independent);
   const MlFit fit = MlFit::of(prepared, in_use, with_noise);
   const MlFit fit_in_use = MlFit::of(prepared, in_use, with_noise, {.factors = true}, fit.unknowns());

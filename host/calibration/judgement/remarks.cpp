@@ -36,6 +36,13 @@ Remark slip_remark(const RunFit& run) {
 
 }  // namespace
 
+Shown two_wheelbases(double e, double standard_error) {
+  constexpr double kPerhaps = 2, kClearly = 3;
+  const double ratio = std::abs(e) / standard_error;
+  if (ratio < kPerhaps) return Shown::no;
+  return ratio < kClearly ? Shown::perhaps : Shown::clearly;
+}
+
 std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
   std::vector<Remark> list;
   for (const Remark& why : estimate.left_out) list.push_back(why.in("left out: "));

@@ -18,6 +18,11 @@ enum class JudgementProblem {
   estimated_noise_is_wrong
 };
 
+/// How far the drives show that gentle arcs turn about another wheelbase than spins: below two standard errors of e, below three,
+/// or more. An e whose error is not known was given by a person, who knows.
+enum class Shown { no, perhaps, clearly };
+Shown two_wheelbases(double e, double standard_error);
+
 /// One sentence for each problem of an estimate; empty if there is none. `noise_given`: the noise model was given
 /// (MlOptions::noise) and not estimated.
 std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given = false);

@@ -58,9 +58,10 @@ Reduced sum_of(std::span<const Reduced> stretches) {
 }
 
 /// The runs that are no outliers, at the optimum of these alone, where their gradients cancel.
-std::vector<RunInStretches> usual_ones(std::span<const RunInStretches> runs, const FixedParameters& fixed) {
+std::vector<RunInStretches> usual_ones(std::span<const RunInStretches> runs, const FixedParameters& fixed,
+                                       const PriorOfE& prior) {
   std::vector<RunInStretches> usual;
-  Pool pool(fixed);
+  Pool pool(fixed, prior);
   for (const RunInStretches& run : runs) {
     if (run.outlier) continue;
     usual.push_back(run);
@@ -126,8 +127,8 @@ double dispersion(std::span<const Disagreement> runs) {
 }
 
 double clustered_dispersion(std::span<const RunInStretches> runs, const FixedParameters& fixed,
-                            bool truth_is_spaced) {
-  const std::vector<RunInStretches> usual = usual_ones(runs, fixed);
+                            bool truth_is_spaced, const PriorOfE& prior) {
+  const std::vector<RunInStretches> usual = usual_ones(runs, fixed, prior);
   if (usual.size() < 2) return 1;
   std::vector<Reduced> whole, single;
   for (const RunInStretches& run : usual) {

@@ -67,7 +67,7 @@ struct RunInStretches {
 ///
 /// Source  Cameron, Gelbach & Miller 2011, Journal of Business & Economic Statistics 29(2), eq. 2.11.
 double clustered_dispersion(std::span<const RunInStretches> runs, const FixedParameters& fixed,
-                            bool truth_is_spaced);
+                            bool truth_is_spaced, const PriorOfE& prior = {});
 
 /// Probability that a chi-square variable with `degrees_of_freedom` exceeds `value`; 1 for 0 degrees. Exact up to 3, Wilson and
 /// Hilferty's approximation above.

@@ -24,7 +24,6 @@ namespace {
 
 // A factor with a larger relative standard error counts as unobserved.
 constexpr double kOpen = 0.05;
-constexpr double kShowsE = 0.05;  // an e with a larger standard error is not reported
 
 // Rounding can turn an infinite variance into one that is not positive.
 double root(double variance) {
@@ -135,12 +134,6 @@ std::optional<KindFit> summarise_kind(const MlFit& fit, Motion motion) {
   return kind;
 }
 
-std::optional<CurvatureEffect> summarise_curvature(const MlFit& fit, double widening) {
-  const double standard_error = std::sqrt(widening) * fit.e().standard_error;
-  if (!(standard_error > 0 && standard_error < kShowsE)) return {};
-  return CurvatureEffect{fit.e().value, standard_error, !fit.fixed().e};
-}
-
 SessionFit summarise_session(const Unknowns& u, const SharedInformation& covariance,
                              const FixedParameters& fixed) {
   const auto se = [&](int unknown) { return root(covariance(unknown, unknown)); };
@@ -163,19 +156,30 @@ std::vector<Reduced> all_reduced(std::span<const InnovationSums> sums, const Fix
   return runs;
 }
 
-double widening(const MlFit& fit, const std::vector<bool>& outlier) {
+/// What is fixed where runs are compared with each other. An e of which they say less than was known before is not compared:
+/// between samples that are close to each other counts flicker, because they are whole numbers, and on the lines of a square that
+/// looks like curves, in each run like others.
+FixedParameters fixed_where_compared(const MlFit& fit) {
+  constexpr double kPriorVariance = PriorOfE::kStandardDeviation * PriorOfE::kStandardDeviation;
+  FixedParameters fixed = fit.fixed();
+  if (pool_of(fit.sums(), fixed, fit.prior()).factor_covariance()(kE, kE) > kPriorVariance / 2)
+    fixed.e = true;
+  return fixed;
+}
+
+double widening(const MlFit& fit, const std::vector<bool>& outlier, const FixedParameters& fixed) {
   const std::vector<int> courses = find_courses(fit.runs());
   const std::vector<std::vector<InnovationSums>> stretches = fit.sums_by_stretch();
   std::vector<RunInStretches> runs;
   for (std::size_t i = 0; i < courses.size(); ++i)
-    runs.push_back({reduced(fit.sums()[i], stretches[i], fit.fixed()), courses[i], outlier[i]});
-  return clustered_dispersion(runs, fit.fixed(), fit.spacing_m() > 0);
+    runs.push_back({reduced(fit.sums()[i], stretches[i], fixed), courses[i], outlier[i]});
+  return clustered_dispersion(runs, fixed, fit.spacing_m() > 0, fit.prior());
 }
 
-MlEstimate summarise(const MlFit& fit) {
-  const Pool pool = pool_of(fit.sums(), fit.fixed());
-  const std::vector<Disagreement> found = disagreements(
-      all_reduced(fit.sums_with_full_slip_weight(), fit.fixed()), fit.fixed(), fit.spacing_m() > 0);
+MlEstimate summarise(MlFit fit) {
+  const FixedParameters compared = fixed_where_compared(fit);
+  const std::vector<Disagreement> found =
+      disagreements(all_reduced(fit.sums_with_full_slip_weight(), compared), compared, fit.spacing_m() > 0);
   const std::vector<bool> outlier = outliers(found);
   // An outlier is down-weighted in the result, so it does not count here. Slips in all runs do.
   std::vector<Disagreement> usual;
@@ -184,8 +188,10 @@ MlEstimate summarise(const MlFit& fit) {
 
   MlEstimate estimate;
   estimate.dispersion = dispersion(usual);
+  estimate.widening = std::max(estimate.dispersion, widening(fit, outlier, compared));
+  fit.weigh_prior(estimate.widening);
+  const Pool pool = pool_of(fit.sums(), fit.fixed(), fit.prior());
   estimate.factors = factors_of(fit.unknowns().front());
-  estimate.widening = std::max(estimate.dispersion, widening(fit, outlier));
   estimate.covariance = estimate.widening * pool.factor_covariance();
   estimate.se = errors_of(estimate.covariance, estimate.factors);
   require_observed(estimate.se, estimate.factors);
@@ -206,7 +212,6 @@ MlEstimate summarise(const MlFit& fit) {
   }
   for (const Motion motion : {Motion::rest, Motion::line, Motion::arc, Motion::spin})
     if (const auto kind = summarise_kind(fit, motion)) estimate.kinds.push_back(*kind);
-  estimate.curvature = summarise_curvature(fit, estimate.widening);
   std::vector<ClockFit> clocks;
   for (const Unknowns& u : fit.unknowns()) clocks.push_back({u[kClockOffset], u[kSkew]});
   estimate.eccentricities = find_eccentricities(fit.runs(), clocks, estimate.factors);
@@ -231,19 +236,6 @@ void require_observable(const PreparedRuns& prepared, const WheelFactors& loaded
   require_observed(se, loaded);
 }
 
-/// If e is significant by the noise alone, but not by the widened standard errors that the estimate reports, it is not
-/// estimated.
-MlEstimate estimate_with_what_is_shown(const PreparedRuns& prepared, const WheelFactors& loaded,
-                                       MlOptions options) {
-  MlEstimate estimate = summarise(MlFit::of(prepared, loaded, options));
-  const OneUnknown e{estimate.factors.e, estimate.se.e};
-  if (options.with_e || e.value == 0 || is_shown(e)) return estimate;
-  options.with_e = false;
-  estimate = summarise(MlFit::of(prepared, loaded, options));
-  estimate.curvature = CurvatureEffect{e.value, e.standard_error, false};
-  return estimate;
-}
-
 }  // namespace
 
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
@@ -255,7 +247,7 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observable(prepared, loaded, options.clock_known);
-  MlEstimate estimate = estimate_with_what_is_shown(prepared, loaded, options);
+  MlEstimate estimate = summarise(MlFit::of(prepared, loaded, options));
   estimate.left_out = prepared.left_out;
   estimate.mended = prepared.mended;
   return estimate;

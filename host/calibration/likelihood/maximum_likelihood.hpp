@@ -16,10 +16,11 @@
 
 /// Wheel factors by maximum likelihood from whole trajectories.
 ///
-/// Unknown are c_R, c_L, b, and e where the runs show it; per session the lever arm of the tracked body and the skew of the
+/// Unknown are c_R, c_L, b and e; per session the lever arm of the tracked body and the skew of the
 /// clocks; per run its start pose and the offset between the two clocks; and the noise itself. A Kalman filter runs along each
 /// drive (innovation.hpp), and Gauss-Newton maximises the likelihood of its innovations, with Huber's weights against outliers.
-/// For normal noise that is the maximum-likelihood estimate, and it reaches the Cramer-Rao bound within a few percent.
+/// For normal noise that is the maximum-likelihood estimate, and it reaches the Cramer-Rao bound within a few percent. Only e has
+/// a prior that counts (PriorOfE), so the estimate is its posterior mean where the runs show little of it.
 ///
 /// Frames  see trajectory.hpp. Factors are absolute: wheel travel = c * nominal travel, whatever the robot
 ///         loaded while it drove, so a calibration of a calibrated robot composes by itself.
@@ -34,14 +35,16 @@ struct MlOptions {
   /// With a given noise model: the wheel path between the truth samples that are used, because closer samples are not
   /// independent (MlEstimate::spacing_m). Without a given noise model it is estimated.
   double spacing_m = 0;
-  /// Whether e is estimated. If not set, e is estimated only if it differs from zero by two standard errors
-  /// (is_shown).
-  std::optional<bool> with_e = {};
+  /// With a given noise model: by how much the variances exceed what it explains (MlEstimate::widening), so that the prior of
+  /// e counts as much as in that estimate. estimate_ml finds it itself.
+  double widening = 1;
+  /// Whether e is estimated. Off: e is 0, for comparison.
+  bool with_e = true;
   /// Huber's loss for slips and for truth samples. Off: least squares, for comparison.
   bool robust = true;
 };
 
-/// Of c_R, c_L, b and e in this order; b in metres. The row and the column of an e that is not estimated are zero.
+/// Of c_R, c_L, b and e in this order; b in metres. The row and the column of an e that is held at 0 are zero.
 using FactorCovariance = Eigen::Matrix4d;
 
 /// Standard errors of the factors and of the ratios that people use: E_d = c_R / c_L, S = (c_R + c_L) / 2.
@@ -78,12 +81,6 @@ struct KindFit {
   double chi_square_per_dof = 0;
 };
 
-/// Whether gentle arcs turn about another wheelbase than spins.
-struct CurvatureEffect {
-  double e = 0, standard_error = 0;  // what the runs show, also if it is too little to be estimated
-  bool estimated = false;            // else the factors have e = 0
-};
-
 /// Where the tracked body sat in one session, and how the clocks ran.
 struct SessionFit {
   LeverArm lever, lever_se;  // yaw NaN where no heading was measured
@@ -101,12 +98,11 @@ struct MlEstimate {
   /// errors that slip and tracker do not explain (whiteness.hpp); 0 if all samples are used.
   double spacing_m = 0;
   std::vector<RunFit> runs;
-  std::vector<Remark> left_out;              // PreparedRuns::left_out; other useless runs are errors
-  std::vector<Remark> mended;                // PreparedRuns::mended
-  std::vector<KindFit> kinds;                // only those that occur, in the order of Motion
-  std::optional<CurvatureEffect> curvature;  // nothing if the runs hardly show it
-  Eccentricities eccentricities;             // of the wheels; not corrected for
-  double dispersion = 1;                     // of the runs that are no outliers (agreement.hpp)
+  std::vector<Remark> left_out;   // PreparedRuns::left_out; other useless runs are errors
+  std::vector<Remark> mended;     // PreparedRuns::mended
+  std::vector<KindFit> kinds;     // only those that occur, in the order of Motion
+  Eccentricities eccentricities;  // of the wheels; not corrected for
+  double dispersion = 1;          // of the runs that are no outliers (agreement.hpp)
   double widening = 1;  // of variances, in all standard errors: the dispersion or more (clustered_dispersion)
   double chi_square = 0;
   int degrees_of_freedom = 0;
@@ -131,7 +127,7 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
 
 /// The smallest covariance of the factors that an unbiased estimator can have (Cramer-Rao bound): the inverse of the Fisher
 /// information of these runs. `options.noise` must be given. The path comes from the wheels and `factors`, whose e counts as
-/// unknown if it is not zero; of truth only the times matter, apart from the search for the clocks and the checks of usable
+/// unknown, with its prior, if it is not zero; of truth only the times matter, apart from the search for the clocks and the checks of usable
 /// runs. As in the estimate, truth samples closer than two samples of the wheels do not count (preparation.hpp): with all of
 /// them, a tracker with centimetres of noise over counts at 20 Hz would seem up to 1.6 times as good as it is; at 100 Hz over
 /// 60 Hz nothing changes.

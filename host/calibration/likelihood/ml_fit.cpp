@@ -27,9 +27,6 @@ constexpr double kFarFall = 1e4, kNearFall = 100;
 constexpr double kLargestK_m = 1e-2;
 constexpr int kMostPhases = 4;
 constexpr int kStretches = 4;  // one per side of a square, within which wind-up and unwinding cancel
-// e is estimated if it is so many standard errors from zero, if these are small, and if tyres can explain it: wheels out of
-// round bend what should be lines, which would need an e of 2 or 3.
-constexpr double kShown = 2, kUncertainE = 0.02, kLargestE = 0.2;
 // If the innovations of all samples are not independent, this is the smallest spacing that is tried. Wind-up in a spin and
 // unwinding on the next line must lie between the same two samples more often than not, and a quarter turn is 0.8 wheelbases of
 // the wheels' path. The spacing is no simple multiple of that, because the samples would then fall on the same place of every
@@ -68,20 +65,11 @@ std::vector<InnovationSums> mean_of_stretches(std::span<const std::vector<Innova
 
 }  // namespace
 
-bool is_shown(const OneUnknown& e) {
-  return std::abs(e.value) > kShown * e.standard_error && e.standard_error < kUncertainE &&
-         std::abs(e.value) < kLargestE;
-}
-
 MlFit MlFit::of(const PreparedRuns& prepared, const WheelFactors& loaded, const MlOptions& options,
                 FixedParameters held, std::span<const Unknowns> start) {
   MlFit fit(prepared, loaded, options, held,
             start.empty() ? start_values(prepared, loaded) : std::vector(start.begin(), start.end()));
   fit.fit(options, !start.empty());
-  if (!fit.fixed_.factors && !options.with_e)
-    fit.fit_e(options);
-  else if (!fit.fixed_.e)
-    fit.e_ = fit.e_to_first_order();
   return fit;
 }
 
@@ -90,12 +78,13 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
     : runs_(prepared.runs),
       loaded_(loaded),
       fixed_{.factors = held.factors,
-             .e = held.factors || !options.with_e.value_or(false),
+             .e = held.factors || !options.with_e,
              .session = held.session,
              .clock = options.clock_known,
              .lever_yaw = std::none_of(runs_.begin(), runs_.end(),
                                        [](const PreparedRun& run) { return run.has_headings; })},
-      least_noise_(options.noise ? *options.noise : start_noise(prepared)) {
+      least_noise_(options.noise ? *options.noise : start_noise(prepared)),
+      prior_weight_(options.widening) {
   state_.unknowns = std::move(start);
   for (Unknowns& u : state_.unknowns) {
     if (fixed_.clock) u[kSkew] = u[kClockOffset] = 0;
@@ -107,10 +96,6 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
 }
 
 void MlFit::fit(const MlOptions& options, bool started) {
-  passed_ = false;
-  state_.moves.clear();  // those of the previous fit do not contain its last step
-  state_.last_steps.clear();
-  robust_ = RobustMode::none;
   state_.noise = least_noise_;
   // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
   if (!started) {
@@ -130,28 +115,6 @@ void MlFit::fit(const MlOptions& options, bool started) {
   }
   take_last_step();
   require_plausible();
-}
-
-/// Estimates e only if the runs show it, because an e that is only noise would widen the errors of b and gain nothing.
-void MlFit::fit_e(const MlOptions& options) {
-  fixed_.e = false;
-  e_ = e_to_first_order();
-  if (is_shown(e_)) {
-    State without = state_;
-    fit(options, true);
-    e_ = e_to_first_order();
-    if (is_shown(e_)) return;
-    state_ = std::move(without);
-    passed_ = false;
-    e_ = e_to_first_order();
-  }
-  fixed_.e = true;
-}
-
-OneUnknown MlFit::e_to_first_order() const {
-  const double now = state_.unknowns.front()[kE];
-  const Pool pool = pool_of(state_.sums, fixed_, now);
-  return {now + pool.factor_step()[kE], std::sqrt(pool.factor_covariance()(kE, kE))};
 }
 
 std::vector<Moves> MlFit::moves_of(std::span<const Unknowns> unknowns) const {
@@ -175,7 +138,7 @@ void MlFit::choose_samples(double spacing_m, int phases) {
 }
 
 double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
-  double cost = fixed_.e ? 0 : prior_cost(e);
+  double cost = fixed_.e ? 0 : PriorOfE{e, prior_weight_}.cost();
   for (const InnovationSums& run : sums) cost += run.cost;
   return cost;
 }
@@ -187,8 +150,7 @@ void MlFit::fit_with_noise(const Settled& settled) {
   for (int round = 0; round < kMostRounds; ++round) {
     require_plausible();
     if (!passed_) pass_with_noise();
-    const std::vector<Unknowns> steps =
-        gauss_newton_step(state_.sums, fixed_, 0, state_.unknowns.front()[kE]);
+    const std::vector<Unknowns> steps = gauss_newton_step(state_.sums, fixed_, 0, prior());
     const double expected = fall_of(steps);
     const NoiseModel noise = next_noise();
     const double noise_moved = distance(state_.noise, noise);
@@ -207,14 +169,24 @@ void MlFit::fit_with_noise(const Settled& settled) {
 /// Makes a step that is so small that another pass would only confirm it. The sums after it follow from the information of the
 /// last pass.
 void MlFit::take_last_step() {
-  const std::vector<Unknowns> steps = gauss_newton_step(state_.sums, fixed_, 0, state_.unknowns.front()[kE]);
+  const std::vector<Unknowns> steps = gauss_newton_step(state_.sums, fixed_, 0, prior());
   if (!(fall_of(steps) < kSettled.fall)) return;
+  take_without_pass(steps);
+}
+
+void MlFit::take_without_pass(std::span<const Unknowns> steps) {
   passed_ = false;
-  state_.last_steps = steps;
+  state_.last_steps.resize(steps.size(), Unknowns::Zero());
   for (std::size_t i = 0; i < steps.size(); ++i) {
+    state_.last_steps[i] += steps[i];
     state_.unknowns[i] += steps[i];
     make_step(state_.sums[i], steps[i]);
   }
+}
+
+void MlFit::weigh_prior(double weight) {
+  prior_weight_ = weight;
+  take_without_pass(gauss_newton_step(state_.sums, fixed_, 0, prior()));
 }
 
 void MlFit::take(std::span<const Unknowns> steps) {
@@ -344,8 +316,7 @@ void MlFit::maximise(const Settled& settled) {
   state_.stretches.clear();
   state_.sums = pass(state_.moves, robust_);
   for (int step = 0; step < kMostSteps; ++step) {
-    const std::vector<Unknowns> steps =
-        gauss_newton_step(state_.sums, fixed_, damping, state_.unknowns.front()[kE]);
+    const std::vector<Unknowns> steps = gauss_newton_step(state_.sums, fixed_, damping, prior());
     // A damped step is small because of the damping, so it does not show convergence.
     if (damping == 0 && fall_of(steps) < settled.fall) return;
     ++iterations_;
@@ -392,7 +363,7 @@ void MlFit::widen_uncertain_slip() {
   double least = std::numeric_limits<double>::infinity();
   while (true) {
     const double cost =
-        cost_of(state_.sums, state_.unknowns.front()[kE]) + log_determinant(state_.sums, fixed_);
+        cost_of(state_.sums, state_.unknowns.front()[kE]) + log_determinant(state_.sums, fixed_, prior());
     least = std::min(least, cost);
     // Written with !(x <= limit) so that a NaN also ends the loop.
     if (!(cost <= least + kRise && state_.noise.K_m < kLargestK_m)) return;

@@ -19,13 +19,8 @@ struct Settled {
   double fall = 0, noise = 0;
 };
 
-/// Whether an e is significant and plausible: more than two standard errors from zero, with a standard error below 0.02, and no
-/// larger than tyres can cause.
-bool is_shown(const OneUnknown& e);
-
 /// Gauss-Newton, damped if the unknowns are far off. If the noise is not given, it is estimated together with the unknowns, and
-/// truth is thinned until the innovations are independent (whiteness.hpp). If MlOptions::with_e is not set, e is estimated only
-/// if is_shown.
+/// truth is thinned until the innovations are independent (whiteness.hpp).
 class MlFit {
  public:
   /// The fit of these runs, which must outlive it.
@@ -50,8 +45,11 @@ class MlFit {
   const FixedParameters& fixed() const { return fixed_; }
   /// The wheel path between the truth samples that the filter uses; less in short runs. 0: it uses all samples.
   double spacing_m() const { return state_.spacing_m; }
-  /// The e that the runs show; to first order if it is not estimated.
-  OneUnknown e() const { return e_; }
+  /// The prior of e at the present unknowns.
+  PriorOfE prior() const { return {state_.unknowns.front()[kE], prior_weight_}; }
+  /// Lets the prior of e count `weight` times. The unknowns move by less than their standard errors, and over that much the
+  /// wheels' paths are linear in them, so no further pass is needed.
+  void weigh_prior(double weight);
   int iterations() const { return iterations_; }
 
  private:
@@ -72,8 +70,6 @@ class MlFit {
         FixedParameters held, std::vector<Unknowns> start);
 
   void fit(const MlOptions& options, bool started);
-  void fit_e(const MlOptions& options);
-  OneUnknown e_to_first_order() const;
   double kappa0() const { return fixed_.factors ? loaded_.kappa0 : kUsualKappa0; }
   std::vector<Moves> moves_of(std::span<const Unknowns> unknowns) const;
   std::vector<std::vector<InnovationSums>> stretches_anew() const;
@@ -83,6 +79,7 @@ class MlFit {
   std::vector<InnovationSums> pass(std::span<const Moves> moves, RobustMode robust) const;
   void pass_with_noise();
   void take_last_step();
+  void take_without_pass(std::span<const Unknowns> steps);
   void take(std::span<const Unknowns> steps);
   double fall_of(std::span<const Unknowns> steps) const;
   void maximise(const Settled& settled);
@@ -97,11 +94,11 @@ class MlFit {
   WheelFactors loaded_;
   FixedParameters fixed_;
   NoiseModel least_noise_;
+  double prior_weight_;
   State state_;
   NoiseSlope noise_slope_;  // of the last pass with noise
   bool passed_ = false;     // the sums and noise_slope_ are of the unknowns, noise and samples of state_
   RobustMode robust_ = RobustMode::none;
-  OneUnknown e_;
   int iterations_ = 0;
 };
 

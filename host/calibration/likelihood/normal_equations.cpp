@@ -8,8 +8,8 @@ namespace {
 
 using Run = Elimination<kShared, kOwn>;
 
-// Inverse squares of the largest plausible values: e 0.1, lever arm 1 m, yaw one turn, skew 10 %, offset 10 s.
-constexpr double kEPrior = 100, kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 100, kOffsetPrior = 0.01;
+// Inverse squares of the largest plausible values: lever arm 1 m, yaw one turn, skew 10 %, offset 10 s.
+constexpr double kLeverPrior = 1, kYawPrior = 0.03, kSkewPrior = 100, kOffsetPrior = 0.01;
 
 /// Information of one run in its blocks, without the fixed unknowns and with the weak priors.
 struct Parts {
@@ -100,7 +100,7 @@ FactorMatrix Pool::information() const {
   for (const Reduced& session : sessions_)
     sum += session.information.topLeftCorner<kFactors, kFactors>() - eliminated(session).lost_information();
   if (fixed_.factors) sum.diagonal().setOnes();
-  sum(kE, kE) += fixed_.e ? 1 : kEPrior;
+  sum(kE, kE) += fixed_.e ? 1 : prior_.information();
   return sum;
 }
 
@@ -114,7 +114,7 @@ FactorVector Pool::factor_step() const {
   FactorVector gradient = FactorVector::Zero();
   for (const Reduced& session : sessions_)
     gradient += session.gradient.head<kFactors>() - eliminated(session).lost_gradient();
-  if (!fixed_.e && !fixed_.factors) gradient[kE] -= kEPrior * e_;
+  if (!fixed_.e && !fixed_.factors) gradient[kE] += prior_.gradient();
   return Inverted<kFactors>(information()).inverse * gradient;
 }
 
@@ -146,9 +146,9 @@ double Pool::log_determinant() const {
 }
 
 std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, const FixedParameters& fixed,
-                                        double damping, double e) {
+                                        double damping, const PriorOfE& prior) {
   std::vector<Run> runs;
-  Pool pool(fixed, e);
+  Pool pool(fixed, prior);
   for (const InnovationSums& one : sums) {
     const Parts parts = parts_of(one, fixed, damping);
     runs.push_back(parts.run());
@@ -164,16 +164,15 @@ std::vector<Unknowns> gauss_newton_step(std::span<const InnovationSums> sums, co
   return steps;
 }
 
-Pool pool_of(std::span<const InnovationSums> sums, const FixedParameters& fixed, double e) {
-  Pool pool(fixed, e);
+Pool pool_of(std::span<const InnovationSums> sums, const FixedParameters& fixed, const PriorOfE& prior) {
+  Pool pool(fixed, prior);
   for (const InnovationSums& run : sums) pool.add(reduced(run, fixed, 0));
   return pool;
 }
 
-double prior_cost(double e) { return kEPrior * e * e; }
-
-double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed) {
-  double sum = pool_of(sums, fixed).log_determinant();
+double log_determinant(std::span<const InnovationSums> sums, const FixedParameters& fixed,
+                       const PriorOfE& prior) {
+  double sum = pool_of(sums, fixed, prior).log_determinant();
   for (const InnovationSums& run : sums) sum += parts_of(run, fixed, 0).run().own().log_determinant;
   return sum;
 }

@@ -128,7 +128,6 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   ml.options.noise = choice.noise;
   if (!choice.noise && std::ranges::all_of(runs, &calibration::Trajectory::has_ends_only))
     ml.options.noise = calibration::noise_of_ends(runs, result.loaded, ml.options);
-  ml.options.with_e = choice.with_e;
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   ml.session_names = session_names(runs, ml.estimate);
   result.truth_scale_sigma = truth_scale_sigma(phases);
@@ -145,7 +144,7 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
       se.c_r,  se.c_l, se.b_m, se.E_d * result.loaded.c_l / result.loaded.c_r, se.b_m / result.loaded.b_m,
       se.scale};
   if (std::isinf(result.truth_scale_sigma)) result.se.scale = FactorErrors::kUnknown;
-  if (ml.estimate.factors.e != 0) result.se.e = se.e;
+  result.se.e = se.e;
   result.robot = identity_of(first.runs().front().info);
   result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
   result.squares = summary_of_squares(*phases.back());
@@ -284,12 +283,6 @@ Calibration calibrate(const Recordings& recordings, const MethodChoice& method, 
 Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
                             const MethodChoice& method, const MlChoice& ml) {
   return calibrate_phases(phases, method, ml);
-}
-
-MlChoice ml_choice(const Plan& plan) {
-  MlChoice choice;
-  if (!plan.extras) choice.with_e = false;
-  return choice;
 }
 
 }  // namespace astro::experiment

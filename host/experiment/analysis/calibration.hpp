@@ -87,7 +87,6 @@ struct MlChoice {
   enum class Clock { automatic, known, estimated };
   Clock clock = Clock::automatic;
   std::optional<calibration::NoiseModel> noise;  // estimated unless given
-  std::optional<bool> with_e = {};               // see calibration::MlOptions
 };
 
 /// Whether all truth is on the robot's own clock: as `clock` says or, if that is automatic, as the recordings say.
@@ -106,10 +105,6 @@ Calibration calibrate(const Recordings& recordings, const MethodChoice& method, 
 /// Throws as above.
 Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> phases,
                             const MethodChoice& method, const MlChoice& ml = {});
-
-/// What the plan of an experiment says about maximum likelihood: without circles, e is not estimated, because squares alone
-/// do not determine it.
-MlChoice ml_choice(const Plan& plan);
 
 /// From end poses and measured lines alone; automatic: robust. Throws astro::Error if the method is maximum likelihood,
 /// which needs more; and what calibration::estimate_factors and calibration::scale_of_lines throw.

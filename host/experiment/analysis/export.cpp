@@ -10,6 +10,7 @@
 #include "common/params/table.hpp"
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/files/curvature_named.hpp"
 #include "host/experiment/files/number_named.hpp"
@@ -122,16 +123,23 @@ DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal) {
 
 std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDrive& parameters) {
   const double e = with_curvature_named({}, file.parameters, "the calibration").e;
-  if (e == 0) return std::nullopt;
+  constexpr double kNothing = 5e-4;
+  if (std::abs(e) < kNothing) return std::nullopt;
+  const auto error = file.standard_errors.find("e");
+  const auto shown =
+      calibration::two_wheelbases(e, error == file.standard_errors.end() ? std::nan("") : error->second);
   const double b_m = factor(file, "b");
   const std::string e_text = fmt::format("{:.4g}", e), percent = fmt::format("{:.1f}", 100 * std::abs(e)),
                     too = e > 0 ? "far" : "little",
                     multiplier = fmt::format("{:.6g}", parameters.wheel_separation_multiplier * (1 + e));
-  return Remark{fmt::format("diff_drive_controller knows one wheelbase, and this robot has two: spins turn "
+  return Remark{fmt::format("diff_drive_controller knows one wheelbase, and this robot {} two: spins turn "
                             "about {:.6g} m, which is written, gentle arcs about {:.6g} m (e = {}), so that "
                             "its odometry turns them up to {} % too {}; drive with the odometry of "
                             "Astrolabe's firmware, which has both, or set wheel_separation_multiplier to {} "
                             "if the robot mostly drives arcs",
+                            shown == calibration::Shown::clearly   ? "has"
+                            : shown == calibration::Shown::perhaps ? "perhaps has"
+                                                                   : "may have",
                             b_m, b_m * (1 + e), e_text, percent, too, multiplier),
                 ExportProblem::second_wheelbase,
                 {e_text, percent, too, multiplier}};

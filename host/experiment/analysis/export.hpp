@@ -41,8 +41,8 @@ void require_loadable(const ParameterFile& file);
 DiffDrive diff_drive(const ParameterFile& file, const NominalSizes& nominal);
 
 /// States what these parameters cannot express if e is not 0, because diff_drive_controller has only one wheelbase. They
-/// contain the wheelbase of spins (b), which goes with c_R and c_L in a calibration, so gentle arcs are wrong by e. Nothing
-/// for e = 0.
+/// contain the wheelbase of spins (b), which goes with c_R and c_L in a calibration, so gentle arcs are wrong by e. As sure of it
+/// as the file's standard error of e allows (two_wheelbases). Nothing if e makes less than 0.05 %.
 std::optional<Remark> single_wheelbase(const ParameterFile& file, const DiffDrive& parameters);
 
 /// Whether ROS 2 accepts `name` as a node in a file of parameters: "controller", "/left_robot/controller".

@@ -95,13 +95,6 @@ nlohmann::json matrix_json(const calibration::FactorCovariance& covariance) {
   return rows;
 }
 
-nlohmann::json curvature_json(const std::optional<calibration::CurvatureEffect>& curvature) {
-  if (!curvature) return {};
-  return {{"e", number(curvature->e)},
-          {"standard_error", number(curvature->standard_error)},
-          {"estimated", curvature->estimated}};
-}
-
 nlohmann::json eccentricity_json(const calibration::Eccentricity& wheel) {
   return {{"amplitude_m", number(wheel.amplitude_m)},
           {"standard_error_m", number(wheel.standard_error_m)},
@@ -136,7 +129,7 @@ nlohmann::json likelihood_json(const MlResult& ml) {
       {"dispersion", number(estimate.dispersion)},
       {"widening", number(estimate.widening)},
       {"iterations", estimate.iterations},
-      {"curvature", curvature_json(estimate.curvature)},
+      {"curvature", {{"e", number(estimate.factors.e)}, {"standard_error", number(estimate.se.e)}}},
       {"eccentricity",
        {{"left", eccentricity_json(estimate.eccentricities.left)},
         {"right", eccentricity_json(estimate.eccentricities.right)}}},

@@ -16,6 +16,9 @@
 namespace astro::experiment {
 namespace {
 
+// A larger standard error of e is half of what is known without any drive.
+constexpr double kHardlyShown = 0.01;
+
 /// A remark with a capital letter, unless it begins with the name of a run, which stays as it is.
 std::string capitalised(std::string remark, const std::vector<calibration::RunFit>& runs) {
   const bool named = std::any_of(runs.begin(), runs.end(),
@@ -115,31 +118,19 @@ std::string wheelbases_text(const calibration::WheelFactors& factors) {
 }
 
 std::string wheelbase_sentence(const Calibration& found) {
-  const auto& curvature = found.ml()->estimate.curvature;
-  const std::string reset = found.loaded.e != 0 && found.factors.e == 0
-                                ? fmt::format(" The loaded e = {:.4f} becomes 0.", found.loaded.e)
-                                : "";
-  if (found.ml()->options.with_e == false)
-    return "Whether gentle arcs turn about another wheelbase than spins was not looked for, so e is 0; "
-           "squares and "
-           "circles together would show it." +
-           reset;
-  if (!curvature)
-    return "Whether gentle arcs turn about another wheelbase than spins these drives hardly show, so e is 0; "
-           "squares and circles together would show it." +
-           reset;
-  if (!curvature->estimated)
-    return fmt::format(
-               "Gentle arcs and spins turn about the same wheelbase, as far as the drives show (e = {}), so "
-               "e is 0.",
-               with_error(curvature->e, curvature->standard_error, 4)) +
-           reset;
   const calibration::WheelFactors& factors = found.factors;
+  const std::string e = with_error(factors.e, found.se.e, 4);
+  const auto shown = calibration::two_wheelbases(factors.e, found.se.e);
+  if (shown == calibration::Shown::no)
+    return fmt::format(
+        "Whether gentle arcs turn about another wheelbase than spins the drives {}; e = {} is what they and "
+        "the tyres of other robots make likely.",
+        found.se.e > kHardlyShown ? "hardly show (squares and circles together would)" : "do not show", e);
   return fmt::format(
-      "The robot has two wheelbases (e = {}): {}. With that of spins alone, odometry would turn a gentle arc "
-      "up to {:.1f} % too {}.",
-      with_error(factors.e, found.se.e, 4), wheelbases_text(factors), 100 * std::abs(factors.e),
-      factors.e > 0 ? "far" : "little");
+      "{} two wheelbases (e = {}): {}. With that of spins alone, odometry would turn a gentle arc up to "
+      "{:.1f} % too {}.",
+      shown == calibration::Shown::clearly ? "The robot has" : "Perhaps the robot has", e,
+      wheelbases_text(factors), 100 * std::abs(factors.e), factors.e > 0 ? "far" : "little");
 }
 
 std::string noise_sentence(const MlResult& ml) {

@@ -21,8 +21,8 @@ std::string clock_sentence(const MlResult& ml);
 /// How well the scale of the ground truth is known; "" where it is taken for exact. Precondition: found by maximum likelihood.
 std::string scale_sentence(const Calibration& found);
 
-/// Whether gentle arcs turn about another wheelbase than spins, how wrong odometry with one wheelbase would be, and whether
-/// a loaded e becomes 0. Precondition: found by maximum likelihood.
+/// Whether gentle arcs turn about another wheelbase than spins: as a fact, as perhaps, or not (two_wheelbases), and how wrong odometry
+/// with one wheelbase would be. Precondition: found by maximum likelihood.
 std::string wheelbase_sentence(const Calibration& found);
 
 /// "spins turn about b = 290.000 mm, gentle arcs about b (1 + e) = 298.700 mm".

@@ -106,8 +106,7 @@ Results read_results(const fs::path& folder, recording::Damage damage) {
     if (set.runs.empty()) break;
     driven.push_back(std::make_shared<const Recordings>(std::move(set)));
     results.phases.push_back(phase_of(names[i], driven.back()));
-    if (i + 1 < names.size())
-      results.phases.back().calibration = calibrate_after(driven, plan.method, ml_choice(plan));
+    if (i + 1 < names.size()) results.phases.back().calibration = calibrate_after(driven, plan.method);
   }
   if (results.phases.empty())
     throw Error("the experiment in '" + folder.string() + "' has not driven its first phase to the end",

@@ -240,7 +240,7 @@ class Session {
     current_.read(current);
     std::vector<std::shared_ptr<const Recordings>> phases = finished_;
     phases.push_back(current_.recordings());
-    return calibrate_after(phases, journal_.plan.method, ml_choice(journal_.plan));
+    return calibrate_after(phases, journal_.plan.method);
   }
 
   void take_later_truth(std::size_t phase) {
@@ -264,7 +264,7 @@ class Session {
   /// False if the experiment ends here, because the robot keeps its factors.
   bool calibrate(std::size_t phase) {
     const std::vector<std::string> names = phase_names(journal_.plan);
-    const Calibration found = calibrate_after(finished_, journal_.plan.method, ml_choice(journal_.plan));
+    const Calibration found = calibrate_after(finished_, journal_.plan.method);
     const fs::path file = folder_ / fmt::format("calib-{}.toml", names[phase]);
     write_calibration(file, found);
     found_.push_back(found);

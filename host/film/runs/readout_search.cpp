@@ -40,7 +40,7 @@ std::optional<Readout> find_readout(const std::function<experiment::RunSet(doubl
   // All trials use the same noise, so that differences in chi-square are those in likelihood.
   options.noise = start.noise;
   options.spacing_m = start.spacing_m;
-  options.with_e = start.factors.e != 0;
+  options.widening = start.widening;
   const int freedom = std::max(1, start.degrees_of_freedom);
   const auto tried = [&](double readout_s) {
     const calibration::MlEstimate found = estimated(readout_s);

@@ -168,8 +168,8 @@ Forecast forecast(const Programme& programme) {
   calibration::MlOptions options;
   options.noise = programme.noise;
   calibration::WheelFactors factors = model.actual;
-  // Not zero, so that e counts as unknown. So small a value does not change the information about e.
-  if (programme.with_e) factors.e = 1e-9;
+  // Not zero, so that e counts as unknown, as in the estimate. So small a value does not change the information about it.
+  factors.e = 1e-9;
   result.covariance = cramer_rao_bound(runs, factors, {}, options);
   result.se = errors_of(result.covariance, model.actual);
   return result;

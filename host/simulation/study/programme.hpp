@@ -52,7 +52,7 @@ struct Programme {
   calibration::NoiseModel noise{2.645e-6, 5e-4, 0.0026179938779914943};  // 0.15 degrees
   double truth_rate_hz = 60, count_rate_hz = 100;
   double speed_mps = 0.3, yaw_rate_radps = 1.0;
-  bool with_e = false;  // e is estimated as well
+  bool with_e = false;  // the precision of e is asked for as well
 
   /// The same with other numbers of runs.
   Programme with(const Counts& other) const;
@@ -62,8 +62,8 @@ struct Programme {
 
 struct Forecast {
   Programme programme;
-  // For a robot without errors: c_R = c_L = S = E_d = 1. Includes e only if it is to be found; if the runs do
-  // not show it, its standard error is that without any runs, 0.1.
+  // For a robot without errors: c_R = c_L = S = E_d = 1. If the runs do not show e, its
+  // standard error is what is known without any runs, 0.02.
   calibration::FactorCovariance covariance = calibration::FactorCovariance::Zero();
   calibration::MlErrors se;
   calibration::DriveExtent extent;  // distance of the robot's centre, and the sum of |rotation|

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
+#include "host/calibration/likelihood/normal_equations.hpp"
 #include "host/simulation/study/limits.hpp"
 
 namespace astro::simulation::study {
@@ -46,14 +47,6 @@ double excess(const calibration::MlErrors& se, double b_m, const Target& target)
   return target.e ? std::max(most, se.e / *target.e) : most;
 }
 
-/// Inverts a covariance or an information matrix. Without e, its row and column are zero in both.
-Eigen::Matrix4d inverse(const Eigen::Matrix4d& matrix, bool with_e) {
-  if (with_e) return matrix.inverse();
-  Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
-  out.topLeftCorner<3, 3>() = Eigen::Matrix3d(matrix.topLeftCorner<3, 3>()).inverse();
-  return out;
-}
-
 /// What can be added to a programme at a time: a line, or a pair of turning runs.
 struct Unit {
   Kind kind = kSquares;
@@ -68,9 +61,7 @@ Counts counts_of(const std::vector<Unit>& units, const std::vector<int>& numbers
   return counts;
 }
 
-Information information_of(const Forecast& forecast) {
-  return inverse(forecast.covariance, forecast.programme.with_e);
-}
+Information information_of(const Forecast& forecast) { return forecast.covariance.inverse(); }
 
 /// Time and information of a unit are what it adds to a programme with one unit of every kind.
 std::vector<Unit> units_of(const std::vector<Kind>& kinds, const Programme& sizes) {
@@ -113,14 +104,13 @@ class Search {
     if (why_undetermined(counts) || (target_.e && why_e_is_hidden(counts))) return kTargetMissed;
     double time_s = 0;
     Information information = Information::Zero();
+    information(calibration::kE, calibration::kE) = calibration::PriorOfE{}.information();
     for (std::size_t i = 0; i < units_.size(); ++i) {
       time_s += numbers[i] * units_[i].time_s;
       information += numbers[i] * units_[i].information;
     }
-    const FactorCovariance covariance = inverse(information, target_.e.has_value());
-    const Eigen::Index unknowns = target_.e ? 4 : 3;
-    if (!covariance.allFinite() || !(covariance.diagonal().head(unknowns).minCoeff() > 0))
-      return kTargetMissed;
+    const FactorCovariance covariance = information.inverse();
+    if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() > 0)) return kTargetMissed;
     return excess(errors_of(covariance, nominal_), nominal_.b_m, target_) <= 1 ? time_s : kTargetMissed;
   }
 

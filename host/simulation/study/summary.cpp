@@ -1,6 +1,7 @@
 #include "host/simulation/study/summary.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -28,9 +29,12 @@ MeanError mean_of(std::size_t count, Read read) {
 }
 
 std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSetup& setup) {
-  // The draws need no e, because the errors of squares and lines do not depend on it.
   const Eigen::Matrix3d of_three = covariance.topLeftCorner<3, 3>();
   const Eigen::Matrix3d root = of_three.llt().matrixL();
+  // An unknown e is uncertain together with E_d, because only both together give the curvature of a line.
+  const Eigen::Vector3d between = covariance.topRightCorner<3, 1>();
+  const Eigen::Vector3d with_three = of_three.llt().solve(between);
+  const double alone = std::sqrt(std::max(0.0, covariance(3, 3) - with_three.dot(between)));
   const WheelFactors actual = setup.actual();
   std::mt19937_64 random(derived_seed(setup.seed, kDrawSeed));
   std::normal_distribution<double> normal;
@@ -38,7 +42,9 @@ std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSe
   for (int i = 0; i < kDraws; ++i) {
     const double a = normal(random), b = normal(random), c = normal(random);
     const Eigen::Vector3d e = root * Eigen::Vector3d(a, b, c);
-    errors.push_back(errors_of({actual.c_r + e[0], actual.c_l + e[1], actual.b_m + e[2], actual.e}, setup));
+    const double curvature = with_three.dot(e) + (alone > 0 ? alone * normal(random) : 0);
+    errors.push_back(
+        errors_of({actual.c_r + e[0], actual.c_l + e[1], actual.b_m + e[2], actual.e + curvature}, setup));
   }
   return errors;
 }

@@ -232,7 +232,7 @@ TEST(CrossValidation, JudgesByFactorsThatAWholeEstimateWithoutTheDriveWouldFind)
     MlOptions with_noise = options;
     with_noise.noise = all.noise;
     with_noise.spacing_m = all.spacing_m;
-    with_noise.with_e = all.factors.e != 0;
+    with_noise.widening = all.widening;
     double worst = 0;
     for (std::size_t i = 0; i < drives.size(); ++i) {
       std::vector<Trajectory> others = drives;

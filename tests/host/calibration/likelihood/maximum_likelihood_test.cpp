@@ -8,6 +8,7 @@
 #include <random>
 
 #include "host/calibration/judgement/remarks.hpp"
+#include "host/calibration/likelihood/normal_equations.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/calibration/preparation/preparation_problem.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
@@ -446,29 +447,38 @@ TEST(MaximumLikelihood, FindsHowMuchWiderTheWheelbaseIsInArcs) {
   expect_true(found, model.actual);
   EXPECT_LT(std::abs(found.factors.e - 0.02), kFourSigma * found.se.e);
   EXPECT_GT(found.factors.e, kFourSigma * found.se.e);
-  ASSERT_TRUE(found.curvature);
-  EXPECT_TRUE(found.curvature->estimated);
   EXPECT_EQ(found.dispersion, 1);
 }
 
-TEST(MaximumLikelihood, LeavesEAtZeroWhereThereIsNone) {
+TEST(MaximumLikelihood, ClaimsNoEOfARobotThatHasNone) {
   const DriveModel model = astro_drive();
-  MlOptions without;
-  without.with_e = false;
-  int estimated = 0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const std::vector<Trajectory> runs = squares_and_circles(model, 2, seed);
-    const MlEstimate found = estimate_ml(runs, model.loaded);
-    ASSERT_TRUE(found.curvature);
-    estimated += found.curvature->estimated ? 1 : 0;
-    if (found.curvature->estimated) continue;
-    const MlEstimate never = estimate_ml(runs, model.loaded, without);
-    EXPECT_EQ(found.factors.e, 0);
-    EXPECT_EQ(found.factors.b_m, never.factors.b_m);
-    EXPECT_EQ(found.se.b_m, never.se.b_m);
+  int claimed = 0;
+  double chi_square = 0;
+  constexpr int kTrials = 10;
+  for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
+    const MlEstimate found = estimate_ml(squares_and_circles(model, 2, seed), model.loaded);
+    expect_true(found, model.actual);
+    chi_square += std::pow(found.factors.e / found.se.e, 2) / kTrials;
+    if (two_wheelbases(found.factors.e, found.se.e) != Shown::no) ++claimed;
   }
-  // One in twenty by chance: four of ten once in a thousand times.
-  EXPECT_LT(estimated, 4);
+  EXPECT_LT(chi_square, 1 + 3 * std::sqrt(2.0 / kTrials));
+  EXPECT_LT(claimed, 4) << "one in twenty by chance, so four of ten once in a thousand times";
+}
+
+TEST(MaximumLikelihood, LeavesEAtItsPriorWhereCirclesAloneCannotTellItFromTheWheelbase) {
+  DriveModel model = astro_drive();
+  model.noise.K_m = 1e-6;
+  model.actual.e = 0.02;
+  std::vector<Trajectory> circles = squares_and_circles(model, 4);
+  circles.erase(circles.begin(), circles.begin() + 4);
+  const MlEstimate found = estimate_ml(circles, model.loaded);
+  EXPECT_GT(found.se.e, 0.9 * PriorOfE::kStandardDeviation);
+  EXPECT_LT(std::abs(found.factors.e), 0.1 * PriorOfE::kStandardDeviation);
+  expect_true(found, model.actual);
+  // The wheelbase of these arcs is known well all the same: b and e are uncertain together.
+  const double g = kUsualKappa0 / (kUsualKappa0 + model.actual.b_m / 0.75);
+  const Eigen::Vector4d by(0, 0, 1 + found.factors.e * g, found.factors.b_m * g);
+  EXPECT_LT(std::sqrt(by.dot(found.covariance * by)), 0.2 * found.se.b_m);
 }
 
 TEST(MaximumLikelihood, TakesRunsWithAndWithoutHeadingsTogether) {

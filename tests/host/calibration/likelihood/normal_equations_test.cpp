@@ -69,7 +69,7 @@ void expect_steps(const std::vector<Unknowns>& steps, const Vector& expected) {
   ASSERT_EQ(steps.size(), static_cast<std::size_t>(kRuns));
   for (int run = 0; run < kRuns; ++run)
     for (int i = 0; i < kUnknowns; ++i)
-      // The priors, of 1e-2 to 1e2, weigh 1e-7 of the observations' 1e9.
+      // The priors, of 1e-2 to 2.5e3, weigh 1e-6 of the observations' 1e9.
       EXPECT_NEAR(steps[static_cast<std::size_t>(run)][i], expected[place(run, i)], 1e-5) << run << ' ' << i;
 }
 
@@ -212,9 +212,22 @@ TEST(NormalEquations, KeepEAtZeroWhereItIsNotEstimated) {
 }
 
 TEST(NormalEquations, PullOnAnEThatNoRunShows) {
-  const Pool pool = pool_of({}, kAllFree, 0.04);
+  const Pool pool = pool_of({}, kAllFree, {.e = 0.04});
   EXPECT_DOUBLE_EQ(pool.factor_step()[kE], -0.04);
-  EXPECT_DOUBLE_EQ(pool.factor_covariance()(kE, kE), 0.01);  // 10 %
+  EXPECT_DOUBLE_EQ(pool.factor_covariance()(kE, kE), 4e-4);  // 2 %
+}
+
+TEST(NormalEquations, LeaveThePriorOfEAsWideAsItIsWhenErrorsAreWidened) {
+  constexpr double kWidening = 2.5;
+  std::vector<InnovationSums> sums = random_sums();
+  for (InnovationSums& run : sums) {  // so little is said of e that the prior counts as much
+    run.information.row(kE).setZero();
+    run.information.col(kE).setZero();
+    run.information(kE, kE) = 1000;
+  }
+  const double of_runs = 1000.0 * kRuns / kWidening, of_prior = 2500;
+  const Pool pool = pool_of(sums, kAllFree, {.weight = kWidening});
+  EXPECT_NEAR(kWidening * pool.factor_covariance()(kE, kE), 1 / (of_runs + of_prior), 1e-9);
 }
 
 TEST(NormalEquations, KeepAWideErrorForWhatNoRunShows) {
