@@ -2,8 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +27,7 @@ struct Session {
   std::string name;
   double skew = 0;
   std::optional<Mounting> mounting;
+  std::vector<std::size_t> runs;
 };
 
 std::vector<std::optional<Mounting>> mountings(const PreparedRuns& runs, const WheelFactors& loaded) {
@@ -44,17 +47,67 @@ std::vector<std::optional<Mounting>> mountings(const PreparedRuns& runs, const W
   return found;
 }
 
-bool differ(const Mounting& a, const Mounting& b) {
+/// Squared standard errors between two mountings; 0 if they are the same within what slip and tyres do.
+double distance(const Mounting& a, const Mounting& b) {
   const LeverArm change = difference(a.lever, b.lever);
   const Eigen::Vector3d apart(change.x_m, change.y_m, change.theta_rad);
-  if (std::hypot(apart[0], apart[1]) < kSame_m && std::abs(apart[2]) < kSame_rad) return false;
+  if (std::hypot(apart[0], apart[1]) < kSame_m && std::abs(apart[2]) < kSame_rad) return 0;
   const Eigen::Matrix3d covariance = a.covariance + b.covariance;
-  return apart.dot(covariance.ldlt().solve(apart)) > kUnlikely;
+  return apart.dot(covariance.ldlt().solve(apart));
 }
 
-/// Keeps the more precise one of two mountings that do not differ.
-void learn(std::optional<Mounting>& known, const std::optional<Mounting>& run) {
-  if (run && (!known || run->covariance.trace() < known->covariance.trace())) known = run;
+double variance(const std::optional<Mounting>& mounting) {
+  return mounting ? mounting->covariance.trace() : std::numeric_limits<double>::infinity();
+}
+
+/// The runs with the most precise mountings first, so that each session is known as well as it can be when a run that shows
+/// little is compared with it, whatever the order of the runs.
+std::vector<std::size_t> most_precise_first(const std::vector<std::optional<Mounting>>& shown) {
+  std::vector<std::size_t> order(shown.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return variance(shown[a]) < variance(shown[b]); });
+  return order;
+}
+
+/// The time between two drives by the tracker's clock; 0 if it began anew for each.
+double between_s(const PreparedRun& a, const PreparedRun& b) {
+  return std::max(
+      {0.0, a.truth.front().time_s - b.truth.back().time_s, b.truth.front().time_s - a.truth.back().time_s});
+}
+
+/// How well a run fits a session; the smaller, the better: distance of the mountings, time to the nearest drive, and for
+/// takes whose times tell nothing the number of runs and the precision of the mounting.
+using Fit = std::array<double, 4>;
+
+Fit fit_of(const Session& session, const PreparedRuns& runs, std::size_t run,
+           const std::optional<Mounting>& shown) {
+  double nearest_s = std::numeric_limits<double>::infinity();
+  for (const std::size_t other : session.runs)
+    nearest_s = std::min(nearest_s, between_s(runs.runs[run], runs.runs[other]));
+  return {shown && session.mounting ? distance(*shown, *session.mounting) : 0, nearest_s,
+          -static_cast<double>(session.runs.size()), variance(session.mounting)};
+}
+
+bool may_be_of(const Session& session, const PreparedRuns& runs, std::size_t run) {
+  const std::string& name = runs.runs[run].source->session;
+  return session.name == name &&
+         (!name.empty() || std::abs(session.skew - runs.clocks[run].skew) <= kSameSkew);
+}
+
+/// The session to which a run belongs; null if none fits.
+Session* session_of(std::vector<Session>& sessions, const PreparedRuns& runs, std::size_t run,
+                    const std::optional<Mounting>& shown) {
+  Session* best = nullptr;
+  Fit least{};
+  for (Session& session : sessions) {
+    if (!may_be_of(session, runs, run)) continue;
+    const Fit fit = fit_of(session, runs, run, shown);
+    if ((session.name.empty() && fit[0] > kUnlikely) || (best != nullptr && least <= fit)) continue;
+    best = &session;
+    least = fit;
+  }
+  return best;
 }
 
 }  // namespace
@@ -62,21 +115,18 @@ void learn(std::optional<Mounting>& known, const std::optional<Mounting>& run) {
 void find_sessions(PreparedRuns& runs, const WheelFactors& loaded) {
   const std::vector<std::optional<Mounting>> shown = mountings(runs, loaded);
   std::vector<Session> sessions;
-  int last = 0;
-  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-    const std::string& name = runs.runs[i].source->session;
-    const auto holds = [&](const Session& session) {
-      if (session.name != name) return false;
-      if (name.empty() && std::abs(session.skew - runs.clocks[i].skew) > kSameSkew) return false;
-      return !name.empty() || !shown[i] || !session.mounting || !differ(*shown[i], *session.mounting);
-    };
-    auto found = sessions.begin() + (sessions.empty() ? 0 : last);
-    if (sessions.empty() || !holds(*found)) found = std::find_if(sessions.begin(), sessions.end(), holds);
-    if (found == sessions.end())
-      found = sessions.insert(sessions.end(), Session{name, runs.clocks[i].skew, {}});
-    learn(found->mounting, shown[i]);
-    runs.runs[i].session = last = static_cast<int>(found - sessions.begin());
+  for (const std::size_t i : most_precise_first(shown)) {
+    Session* found = session_of(sessions, runs, i, shown[i]);
+    if (found == nullptr)
+      found =
+          &sessions.emplace_back(Session{runs.runs[i].source->session, runs.clocks[i].skew, shown[i], {}});
+    found->runs.push_back(i);
   }
+  for (Session& session : sessions) std::sort(session.runs.begin(), session.runs.end());
+  std::sort(sessions.begin(), sessions.end(),
+            [](const Session& a, const Session& b) { return a.runs.front() < b.runs.front(); });
+  for (std::size_t number = 0; number < sessions.size(); ++number)
+    for (const std::size_t run : sessions[number].runs) runs.runs[run].session = static_cast<int>(number);
 }
 
 int session_count(std::span<const PreparedRun> runs) {

@@ -89,14 +89,34 @@ TEST(Sessions, AreToldApartByTheirClocks) {
   EXPECT_EQ(sessions_of(runs, model.loaded, false), (std::vector{0, 0, 1, 1}));
 }
 
-TEST(Sessions, TakeARunThatShowsNothingForOneOfTheSessionBefore) {
+/// The same drive so much later, by both clocks.
+Trajectory later_by(double seconds, Trajectory run) {
+  for (WheelSample& sample : run.wheels) sample.time_s += seconds;
+  for (BodySample& sample : run.truth) sample.time_s += seconds;
+  return run;
+}
+
+TEST(Sessions, TakeARunThatShowsNothingForOneOfTheDriveNearestInTime) {
   const DriveModel model = astro_drive(), later = on_another_day(model);
-  std::vector<Trajectory> runs = squares(model, 1);
-  append(runs, squares(later, 1));
   DriveModel blind = later;
   blind.headings = false;
-  runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(5), blind, "line", kSeed));
-  EXPECT_EQ(sessions_of(runs, model.loaded), (std::vector{0, 1, 1}));
+  const Trajectory first = squares(model, 1)[0], second = later_by(86400, squares(later, 1)[0]);
+  const Trajectory line = later_by(86400 + 600, simulation::study::synthetic_drive(
+                                                    simulation::study::line_course(5), blind, "line", kSeed));
+  EXPECT_EQ(sessions_of({first, second, line}, model.loaded), (std::vector{0, 1, 1}));
+  EXPECT_EQ(sessions_of({second, first, line}, model.loaded), (std::vector{0, 1, 0}));
+  EXPECT_EQ(sessions_of({line, first, second}, model.loaded), (std::vector{0, 1, 0}));
+}
+
+TEST(Sessions, AreTheSameInEveryOrder) {
+  const DriveModel model = astro_drive(), later = on_another_day(model);
+  std::vector<Trajectory> runs = squares(model, 2);
+  append(runs, squares(later, 2));
+  for (const DriveModel& day : {model, later})
+    runs.push_back(simulation::study::synthetic_drive(simulation::study::line_course(3), day, "line", kSeed));
+  EXPECT_EQ(sessions_of(runs, model.loaded), (std::vector{0, 0, 1, 1, 0, 1}));
+  std::rotate(runs.begin(), runs.begin() + 4, runs.end());
+  EXPECT_EQ(sessions_of(runs, model.loaded), (std::vector{0, 1, 0, 0, 1, 1}));
 }
 
 TEST(Sessions, AreThoseThatWereNamed) {
