@@ -9,6 +9,7 @@
 namespace astro::calibration {
 namespace {
 
+constexpr int kPriorRuns = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,6 +54,22 @@ Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after) {
   const double error = std::hypot(before.standard_error, after.standard_error);
   if (std::abs(difference) <= quantile(before, after) * error) return Verdict::undecided;
   return difference > 0 ? Verdict::better : Verdict::worse;
+}
+
+Verdict judge_gains(std::span<const double> gains) {
+  const auto n = static_cast<double>(gains.size());
+  if (gains.size() < 2) return Verdict::unknown;
+  if (std::all_of(gains.begin(), gains.end(), [](double gain) { return gain == 0; }))
+    return Verdict::undecided;
+  double mean = 0, squares = 0;
+  for (const double gain : gains) mean += gain / n;
+  for (const double gain : gains) squares += (gain - mean) * (gain - mean);
+  const int freedom = static_cast<int>(gains.size()) - 1 + kPriorRuns;
+  const double variance = (squares + kPriorRuns * 4 * std::abs(mean)) / freedom;
+  const double t = mean / std::sqrt(variance / n);
+  if (std::isnan(t)) return Verdict::unknown;
+  if (std::abs(t) <= student_t_90(freedom)) return Verdict::undecided;
+  return t > 0 ? Verdict::better : Verdict::worse;
 }
 
 std::optional<int> runs_to_tell(const FigureOfMerit& before, const FigureOfMerit& after) {

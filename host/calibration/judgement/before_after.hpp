@@ -40,6 +40,18 @@ enum class Verdict { better, worse, undecided, unknown };
 /// errors.
 Verdict judge(const FigureOfMerit& before, const FigureOfMerit& after);
 
+/// better or worse if the mean gain differs from zero at the 10 % level, one-sided; unknown for fewer than two. If the factors
+/// in use are right, factors found from data lose a little on average, so a false claim is far less likely than 10 %: in
+/// simulations below 1.5 % for any number of drives.
+///
+/// For normal noise the variance of a gain is four times its mean. This is the prior for the variance of the gains, with the
+/// weight of four drives. Without the prior two drives could hardly show anything, however large the gain, because Student's t
+/// would need gains that are equal within a sixth of their mean. With the prior alone the verdict would be too bold for a robot
+/// whose slip is not normal.
+///
+/// Source  Smyth 2004, moderated t statistic.
+Verdict judge_gains(std::span<const double> gains);
+
 /// The smallest number of runs before and after with which the same difference would be significant, if each run scattered as
 /// these did; nothing if more than 100 would be needed, or without standard errors.
 std::optional<int> runs_to_tell(const FigureOfMerit& before, const FigureOfMerit& after);

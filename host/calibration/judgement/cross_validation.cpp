@@ -1,12 +1,17 @@
 #include "host/calibration/judgement/cross_validation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/calibration/judgement/held_out_factors.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/judgement/student_t.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/preparation/preparation.hpp"
@@ -15,14 +20,22 @@ namespace astro::calibration {
 namespace {
 
 constexpr std::size_t kMostGroups = 10;
-constexpr int kPriorRuns = 4;
 
-/// Every `groups`-th run, so that a group has runs of all kinds and senses, whether these were driven alternately or one after
-/// the other.
-std::vector<std::size_t> members_of(std::size_t index, std::size_t groups, std::size_t runs) {
-  std::vector<std::size_t> members;
-  for (std::size_t i = index; i < runs; i += groups) members.push_back(i);
-  return members;
+/// The runs of each group, every tenth of the runs in the order of their turns, so that a group has runs of both senses. The
+/// order in which the runs are given does not matter: ties are broken by where the runs end.
+std::vector<std::vector<std::size_t>> groups_of(const PreparedRuns& prepared) {
+  std::vector<std::size_t> order(prepared.runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t run) {
+    const WheelSample& end = prepared.runs[run].source->wheels.back();
+    const BodySample& body = prepared.runs[run].truth.back();
+    return std::array{end.right_m - end.left_m, end.right_m + end.left_m, body.x_m, body.y_m};
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<std::vector<std::size_t>> groups(order.size() > 1 ? std::min(kMostGroups, order.size()) : 0);
+  for (std::size_t i = 0; i < order.size() && !groups.empty(); ++i)
+    groups[i % groups.size()].push_back(order[i]);
+  return groups;
 }
 
 bool contains(std::span<const std::size_t> members, std::size_t run) {
@@ -39,15 +52,20 @@ Pool without(const MlFit& fit, std::span<const std::size_t> members) {
   return others;
 }
 
-/// The factors by the other runs: one step of the search from where the fit of all runs ended. Half
-/// of the runs move the factors by a standard error or so, and over that much the wheels' paths are linear in them.
-WheelFactors found_by(const Pool& others, const MlFit& fit) {
-  Unknowns found = fit.unknowns().front();
-  found.head<kFactors>() += others.factor_step();
-  const WheelFactors factors = factors_of(found);
-  require_observed(errors_of(others.factor_covariance(), factors), factors);
-  return factors;
+WheelFactors factors_of(const FactorVector& factors) {
+  return {factors[kCRight], factors[kCLeft], factors[kB], factors[kE]};
 }
+
+FactorVector vector_of(const WheelFactors& factors) {
+  return {factors.c_r, factors.c_l, factors.b_m, factors.e};
+}
+
+/// A group of runs that is held out together.
+struct HeldOut {
+  std::vector<std::size_t> members;
+  /// Whether the other runs determine the factors, so that the lever arm and the skew that they give are usable.
+  bool determined = true;
+};
 
 /// The members of a group, with the unknowns at which their fits begin: those of the fit of all runs, but with the lever arm
 /// and the skew that the other runs give.
@@ -56,14 +74,15 @@ struct Group {
   std::vector<Unknowns> start;
 };
 
-Group group_of(const PreparedRuns& all, const MlFit& fit, const Pool& others,
-               std::span<const std::size_t> members) {
+Group group_of(const PreparedRuns& all, const MlFit& fit, const HeldOut& held_out) {
+  const Pool others = without(fit, held_out.members);
   Group out;
-  for (const std::size_t i : members) {
+  for (const std::size_t i : held_out.members) {
     out.prepared.runs.push_back(all.runs[i]);
     out.prepared.clocks.push_back(all.clocks[i]);
     out.start.push_back(fit.unknowns()[i]);
-    out.start.back().segment<kOfSession>(kFactors) += others.step(all.runs[i].session).tail<kOfSession>();
+    if (held_out.determined)
+      out.start.back().segment<kOfSession>(kFactors) += others.step(all.runs[i].session).tail<kOfSession>();
   }
   return out;
 }
@@ -94,95 +113,108 @@ Followed followed(const Group& runs, const WheelFactors& factors, const MlOption
   return out;
 }
 
-HeldOutErrors root_mean_squares(const std::vector<HeldOutRun>& runs, RunErrors HeldOutRun::*which) {
-  const auto over = [&](double RunErrors::*error) {
-    double sum = 0, count = 0;
-    for (const HeldOutRun& run : runs) {
-      const double value = run.*which.*error;
-      if (!std::isfinite(value)) continue;
-      sum += value * value;
-      ++count;
-    }
-    return std::sqrt(sum / count);
-  };
-  return {over(&RunErrors::final_m), over(&RunErrors::final_heading_rad), over(&RunErrors::path_rms_m)};
+std::vector<std::string> names_of(const PreparedRuns& prepared, std::span<const std::size_t> members) {
+  std::vector<std::string> names;
+  for (const std::size_t member : members) names.push_back(prepared.runs[member].source->name);
+  return names;
+}
+
+/// Whether the factors, uncertain as they are, must be expected to do worse than those in use on motions that these runs do not
+/// contain: circles in one direction alone fit well with many wheelbases. The square of the change is the square of the error
+/// in use plus the variance, on average.
+bool may_be_worse_elsewhere(const MlEstimate& all, const FactorVector& change) {
+  return expected_end_error_m2(change * change.transpose(), all.factors) <
+         2 * expected_end_error_m2(all.covariance, all.factors);
+}
+
+/// Holds out one group of runs after the other.
+class HoldOut {
+ public:
+  /// `prepared` must outlive it.
+  HoldOut(const PreparedRuns& prepared, const WheelFactors& in_use, const MlEstimate& all,
+          const MlOptions& options)
+      : prepared_(prepared),
+        in_use_(in_use),
+        options_(options),
+        widening_(all.widening),
+        fit_(MlFit::of(prepared, in_use, options)),
+        fit_in_use_(MlFit::of(prepared, in_use, options, {.factors = true}, fit_.unknowns())),
+        whole_(without(fit_, {})),
+        judged_(prepared.runs.size()) {}
+
+  /// From the factors in use to those of all runs.
+  FactorVector change() const { return fit_.unknowns().front().head<kFactors>() - vector_of(in_use_); }
+
+  void hold_out(std::span<const std::size_t> members, CrossValidation& out);
+  /// Those that could be judged, in the order of the runs.
+  std::vector<HeldOutRun> judged() const;
+
+ private:
+  void judge(const HeldOut& group, const HeldOutFactors& without_it);
+
+  const PreparedRuns& prepared_;
+  WheelFactors in_use_;
+  MlOptions options_;
+  double widening_;
+  MlFit fit_, fit_in_use_;
+  Pool whole_;
+  std::vector<std::optional<HeldOutRun>> judged_;
+};
+
+void HoldOut::hold_out(std::span<const std::size_t> members, CrossValidation& out) {
+  const HeldOutFactors without_it = held_out_factors(whole_, without(fit_, members), change());
+  if (without_it.not_judged > widening_ * chi_square_95(without_it.undetermined)) {
+    out.not_judged.push_back(CrossValidation::known_by_these_alone(names_of(prepared_, members)));
+    out.claimed_elsewhere += (without_it.judged + without_it.not_judged) / widening_;
+    return;
+  }
+  try {
+    judge({{members.begin(), members.end()}, without_it.undetermined == 0}, without_it);
+  } catch (const Error& error) {
+    out.not_judged.push_back(CrossValidation::without(names_of(prepared_, members), error));
+  }
+}
+
+void HoldOut::judge(const HeldOut& group, const HeldOutFactors& without_it) {
+  const WheelFactors found = factors_of(FactorVector(vector_of(in_use_) + without_it.change));
+  const FixedParameters held{.factors = true,
+                             .session = group.determined && sessions_are_known(prepared_, group.members)};
+  const Followed by_found = followed(group_of(prepared_, fit_, group), found, options_, held);
+  const Followed by_in_use = followed(group_of(prepared_, fit_in_use_, group), in_use_, options_, held);
+  const double claimed = without_it.judged / widening_ / static_cast<double>(group.members.size());
+  for (std::size_t k = 0; k < group.members.size(); ++k)
+    judged_[group.members[k]] = {by_in_use.errors.at(k), by_found.errors.at(k), found,
+                                 (by_in_use.cost.at(k) - by_found.cost.at(k)) / widening_, claimed};
+}
+
+std::vector<HeldOutRun> HoldOut::judged() const {
+  std::vector<HeldOutRun> runs;
+  for (const std::optional<HeldOutRun>& run : judged_)
+    if (run) runs.push_back(*run);
+  return runs;
 }
 
 }  // namespace
 
-HeldOutErrors CrossValidation::in_use() const { return root_mean_squares(runs, &HeldOutRun::in_use); }
-HeldOutErrors CrossValidation::found() const { return root_mean_squares(runs, &HeldOutRun::found); }
-
-int CrossValidation::better_on() const {
-  return static_cast<int>(
-      std::count_if(runs.begin(), runs.end(), [](const HeldOutRun& run) { return run.gain > 0; }));
-}
-
-// If drives could not be held out, the verdict is not `better`, because the factors may fail on just these
-// drives.
-void CrossValidation::judge() {
-  std::vector<double> gains;
-  for (const HeldOutRun& run : runs) gains.push_back(run.gain);
-  verdict = judge_gains(gains);
-  if (verdict == Verdict::better && !not_judged.empty()) verdict = Verdict::unknown;
-}
-
-Remark CrossValidation::without(const std::vector<std::string>& held_out, const Error& error) {
-  std::string names;
-  for (std::size_t i = 0; i < held_out.size(); ++i)
-    names += (i == 0 ? "" : i + 1 < held_out.size() ? ", " : " and ") + held_out[i];
-  Remark clause = error.in("without " + names + ", ");
-  clause.values.insert(clause.values.end(), held_out.begin(), held_out.end());
-  return clause;
-}
-
-Verdict judge_gains(std::span<const double> gains) {
-  const auto n = static_cast<double>(gains.size());
-  if (gains.size() < 2) return Verdict::unknown;
-  if (std::all_of(gains.begin(), gains.end(), [](double gain) { return gain == 0; }))
-    return Verdict::undecided;
-  double mean = 0, squares = 0;
-  for (const double gain : gains) mean += gain / n;
-  for (const double gain : gains) squares += (gain - mean) * (gain - mean);
-  const int freedom = static_cast<int>(gains.size()) - 1 + kPriorRuns;
-  const double variance = (squares + kPriorRuns * 4 * std::abs(mean)) / freedom;
-  const double t = mean / std::sqrt(variance / n);
-  if (std::isnan(t)) return Verdict::unknown;
-  if (std::abs(t) <= student_t_90(freedom)) return Verdict::undecided;
-  return t > 0 ? Verdict::better : Verdict::worse;
-}
-
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
                                const MlEstimate& all, const MlOptions& options) {
-  CrossValidation out;
   MlOptions with_noise = options;
   with_noise.noise = all.noise;
   with_noise.spacing_m = all.spacing_m;
   with_noise.widening = all.widening;
   const PreparedRuns prepared = prepare(runs, in_use, options.clock_known, Density::independent);
-  const MlFit fit = MlFit::of(prepared, in_use, with_noise);
-  const MlFit fit_in_use = MlFit::of(prepared, in_use, with_noise, {.factors = true}, fit.unknowns());
-  const std::size_t groups = std::min(kMostGroups, prepared.runs.size());
-  for (std::size_t i = 0; i < groups && prepared.runs.size() > 1; ++i) {
-    const std::vector<std::size_t> members = members_of(i, groups, prepared.runs.size());
-    try {
-      const Pool others = without(fit, members);
-      const WheelFactors found = found_by(others, fit);
-      const FixedParameters held{.factors = true, .session = sessions_are_known(prepared, members)};
-      const Followed by_found = followed(group_of(prepared, fit, others, members), found, with_noise, held);
-      const Pool others_in_use = without(fit_in_use, members);
-      const Followed by_in_use =
-          followed(group_of(prepared, fit_in_use, others_in_use, members), in_use, with_noise, held);
-      for (std::size_t k = 0; k < by_found.errors.size(); ++k)
-        out.runs.push_back({by_in_use.errors.at(k), by_found.errors[k], found,
-                            (by_in_use.cost.at(k) - by_found.cost[k]) / all.widening});
-    } catch (const Error& error) {
-      std::vector<std::string> names;
-      for (const std::size_t member : members) names.push_back(prepared.runs[member].source->name);
-      out.not_judged.push_back(CrossValidation::without(names, error));
-    }
-  }
+  HoldOut hold_out(prepared, in_use, all, with_noise);
+  CrossValidation out;
+  for (const std::vector<std::size_t>& members : groups_of(prepared)) hold_out.hold_out(members, out);
+  out.runs = hold_out.judged();
   out.judge();
+  if (out.verdict == Verdict::better && may_be_worse_elsewhere(all, hold_out.change())) {
+    out.verdict = Verdict::unknown;
+    out.not_judged.push_back(
+        {"it fits these drives better, but it is too uncertain for other motions: drive lines, and turns in "
+         "both directions",
+         JudgementProblem::uncertain_elsewhere});
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "host/calibration/judgement/path_errors.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/preparation/path_alignment.hpp"
@@ -27,6 +28,19 @@ Pose2 placed(const Pose2& odometry, const Unknowns& u) {
 
 double rms_standard_error(double rms, std::size_t count) {
   return rms / std::sqrt(2 * static_cast<double>(count));
+}
+
+double expected_end_error_m2(const FactorCovariance& changes, const WheelFactors& factors) {
+  constexpr double kSide_m = 2, kTurn_rad = 2 * std::numbers::pi;
+  const double scale = (factors.c_r + factors.c_l) / 2, turned = 4 * kSide_m / factors.b_m / scale;
+  const Eigen::RowVector4d by_ratio(turned, -turned, 0, 0);
+  const Eigen::RowVector4d by_base(kTurn_rad / 2 / scale, kTurn_rad / 2 / scale, -kTurn_rad / factors.b_m, 0);
+  const Eigen::RowVector4d by_scale(0.5, 0.5, 0, 0);
+  // The products of ratio and wheelbase cancel, because these act with opposite signs in the two directions.
+  const auto square = [&](const Eigen::RowVector4d& jacobian, double length_m) {
+    return length_m * length_m * (jacobian * changes).dot(jacobian);
+  };
+  return square(by_ratio, kSide_m) + square(by_base, kSide_m) + square(by_scale, 4 * kSide_m);
 }
 
 PathErrors path_errors(const MlFit& fit, const WheelFactors& factors) {

@@ -42,4 +42,9 @@ PathErrors path_errors(std::span<const Trajectory> runs, const WheelFactors& fac
 /// The same with nuisance parameters that were fitted already, while `factors` were fixed.
 PathErrors path_errors(const MlFit& fit, const WheelFactors& factors);
 
+/// The mean square of the end errors to be expected of factors that are off by changes of these squares and products (a
+/// covariance): of squares of 2 m in both directions, which end beside the start by the error of their heading, and of a line
+/// as long. To first order.
+double expected_end_error_m2(const FactorCovariance& changes, const WheelFactors& factors);
+
 }  // namespace astro::calibration

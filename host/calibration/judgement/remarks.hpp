@@ -7,11 +7,15 @@
 
 namespace astro::calibration {
 
-/// What may spoil a calibration. Values: the run (run_stands_out, run_slipped); then for each slip the
+/// What may spoil a calibration or its judgement. Values: the run (run_stands_out, run_slipped), the runs
+/// (known_by_these_alone); then for each slip the
 /// seconds since the run's start, and the degrees.
 enum class JudgementProblem {
   too_few_squares,
   single_line,
+  known_by_these_alone,
+  too_few_drives,
+  uncertain_elsewhere,
   run_stands_out,
   run_slipped,
   given_noise_is_wrong,

@@ -30,4 +30,9 @@ double student_t_90(int degrees_of_freedom) {
                   degrees_of_freedom);
 }
 
+double chi_square_95(int degrees_of_freedom) {
+  constexpr std::array<double, 5> kQuantiles{0, 3.841, 5.991, 7.815, 9.488};
+  return kQuantiles.at(static_cast<std::size_t>(degrees_of_freedom));
+}
+
 }  // namespace astro::calibration

@@ -66,6 +66,8 @@ class Pool {
   void know(int session);
   void take_out(const Reduced& run) { add(run, -1); }
 
+  /// About the factors, after the unknowns of the sessions are eliminated; 1 for those that are fixed.
+  FactorMatrix information() const;
   /// The covariance of the factors alone; rows and columns of a fixed e are zero.
   FactorMatrix factor_covariance() const;
   FactorVector factor_step() const;
@@ -79,7 +81,6 @@ class Pool {
 
   void add(const Reduced& run, double sign);
   Session eliminated(const Reduced& session) const;  // with the priors of its unknowns
-  FactorMatrix information() const;
 
   FixedParameters fixed_;
   PriorOfE prior_;

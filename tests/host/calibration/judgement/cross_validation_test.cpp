@@ -9,7 +9,6 @@
 #include "host/calibration/end_poses/replay.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
 #include "host/calibration/judgement/remarks.hpp"
-#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/support/base/remarks.hpp"
 
@@ -256,9 +255,10 @@ TEST(CrossValidation, NamesWhatCannotBeHeldOut) {
   const MlEstimate all = estimate_ml(drives, model.loaded, options);
   const CrossValidation judged = cross_validate(drives, model.loaded, all, options);
   EXPECT_EQ(judged.verdict, Verdict::unknown);
-  using Problem = LikelihoodProblem;
-  EXPECT_THAT(judged.not_judged, testing::ElementsAre(support::Tells(Problem::all_move_alike, "the line"),
-                                                      support::Tells(Problem::all_move_alike, "the spin")));
+  using Problem = JudgementProblem;
+  EXPECT_THAT(judged.not_judged,
+              testing::UnorderedElementsAre(support::Tells(Problem::known_by_these_alone, "the line"),
+                                            support::Tells(Problem::known_by_these_alone, "the spin")));
 }
 
 TEST(CrossValidation, IsNotBetterOnWhatWasNotHeldOut) {

@@ -25,5 +25,11 @@ TEST(StudentT, KnowsNothingWithoutDegreesOfFreedom) {
   EXPECT_TRUE(std::isinf(student_t_90(0)));
 }
 
+TEST(ChiSquare, HasTheQuantilesOfTables) {
+  EXPECT_EQ(chi_square_95(0), 0);
+  EXPECT_NEAR(chi_square_95(1), 1.95996 * 1.95996, 1e-3);    // of one normal variable
+  EXPECT_NEAR(chi_square_95(2), -2 * std::log(0.05), 1e-3);  // exponential
+}
+
 }  // namespace
 }  // namespace astro::calibration
