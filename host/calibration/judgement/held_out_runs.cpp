@@ -22,6 +22,12 @@ std::string joined(const std::vector<std::string>& names) {
   return list;
 }
 
+double claimed_by(const std::vector<HeldOutRun>& runs) {
+  double claimed = 0;
+  for (const HeldOutRun& run : runs) claimed += run.claimed;
+  return claimed;
+}
+
 HeldOutErrors root_mean_squares(const std::vector<HeldOutRun>& runs, RunErrors HeldOutRun::*which) {
   const auto over = [&](double RunErrors::*error) {
     double sum = 0, count = 0;
@@ -46,14 +52,19 @@ int CrossValidation::better_on() const {
       std::count_if(runs.begin(), runs.end(), [](const HeldOutRun& run) { return run.gain > 0; }));
 }
 
+bool CrossValidation::little_to_gain() const {
+  const double claimed = claimed_by(runs) + claimed_elsewhere;
+  return claimed > 0 && claimed <= chi_square_95(3);
+}
+
 void CrossValidation::judge() {
   std::vector<double> gains;
-  double gained = 0, claimed = 0;
+  double gained = 0;
   for (const HeldOutRun& run : runs) {
     gains.push_back(run.gain);
     gained += run.gain;
-    claimed += run.claimed;
   }
+  const double claimed = claimed_by(runs);
   verdict = judge_gains(gains);
   if (verdict == Verdict::undecided && claimed > chi_square_95(3) && claimed < kShows)
     not_judged.push_back(

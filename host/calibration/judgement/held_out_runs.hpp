@@ -42,6 +42,8 @@ struct CrossValidation {
   int better_on() const;
   HeldOutErrors in_use() const;
   HeldOutErrors found() const;
+  /// Whether the factors of all runs differ from those in use by no more than their errors; false if it is not known.
+  bool little_to_gain() const;
 
   /// Sets the verdict.
   void judge();

@@ -56,6 +56,7 @@ bool load(robot::Client& client, const experiment::ParameterFile& file, const st
   if (experiment::advises_against(file.verdict) && nobody_to_ask && !settings.force) return false;
   const LoadResult loaded =
       load_parameters(client, robot::RemoteParameters::fetch(client), file, {settings.yes, settings.force});
+  if (loaded.advised_against) return false;
   if (loaded.declined)
     throw Error("nothing was changed; 'astrolabe upload " + path.string() + "' loads it later");
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)

@@ -14,6 +14,7 @@
 #include "host/commands/shared/params_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/console/program.hpp"
 #include "host/console/terminal.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
@@ -157,6 +158,7 @@ experiment::ParameterFile importable(const ParamsOptions& options) {
 
 void import_from_file(robot::Client& client, const ParamsOptions& options, const RemoteParameters& robot) {
   const LoadResult loaded = load_parameters(client, robot, importable(options), {options.yes, options.force});
+  if (loaded.advised_against) return console::answer_no();
   if (loaded.declined) throw Error("nothing was changed");
   if (loaded.report && loaded.report->active != robot::ActiveSet::new_set)
     throw Error(loaded.report->remark());

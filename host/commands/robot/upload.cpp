@@ -11,6 +11,7 @@
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
+#include "host/console/program.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 
 namespace astro::commands {
@@ -43,6 +44,7 @@ void run(UploadOptions& options) {
   const auto client = connect(options.connection);
   const robot::RemoteParameters robot = robot::RemoteParameters::fetch(*client);
   const LoadResult loaded = load_parameters(*client, robot, file, {options.yes, options.force});
+  if (loaded.advised_against) return console::answer_no();
   if (loaded.declined) throw Error("nothing was changed");
   const robot::UploadReport report =
       loaded.report.value_or(robot::UploadReport{robot::ActiveSet::new_set, false, {}});

@@ -85,8 +85,8 @@ LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters&
   if (advised_against) console::say("warning: " + file.verdict_sentence);
   if (!agreed_to_load(file.verdict, options)) {
     if (advised_against)
-      throw Error("nothing was changed: it is advised against (--force uploads all the same)");
-    loaded.declined = true;
+      console::say("nothing was changed: it is advised against (--force uploads all the same)");
+    (advised_against ? loaded.advised_against : loaded.declined) = true;
     return loaded;
   }
   loaded.report = robot::upload(client, values);

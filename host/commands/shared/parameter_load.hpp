@@ -23,13 +23,15 @@ bool agreed_to_load(calibration::Verdict verdict, const LoadOptions& options);
 struct LoadResult {
   std::vector<robot::Change> changes;         // empty: the robot held these values already
   std::optional<robot::UploadReport> report;  // none without changes, and if a person declined
-  bool declined = false;
+  bool declined = false;                      // nothing was loaded, because a person said no
+  bool advised_against =
+      false;  // nothing was loaded, because it is not better and nobody said otherwise; it was said
 };
 
 /// Loads the parameters of a file (a calibration or a robot's whole table) into the robot; the only function
 /// that does so. Shows old and new values side by side, refuses what experiment::objections name, or warns of each with
 /// `force`, warns about values far from the present ones, asks as agreed_to_load does, and uploads. Throws astro::Error if
-/// nothing was loaded, unless a person who was asked declined.
+/// nothing was loaded, unless a person who was asked declined or it is advised against.
 LoadResult load_parameters(robot::Client& client, const robot::RemoteParameters& robot,
                            const experiment::ParameterFile& file, const LoadOptions& options);
 

@@ -63,8 +63,13 @@ std::string judgement_sentence(const CrossValidation& judgement) {
     return fmt::format("Better than what the robot carries: {}.{}{}", seen, doubt_about(judgement), rest);
   if (judgement.verdict == Verdict::worse)
     return fmt::format("Worse than what the robot carries: {}. Keep what it carries.{}", seen, rest);
-  return fmt::format("Not shown to be better than what the robot carries: {}. Keep what it carries.{}", seen,
-                     rest);
+  return fmt::format(
+      "{}ot shown to be better than what the robot carries: {}. Keep what it carries.{}",
+      judgement.little_to_gain()
+          ? "There is little to gain, because the robot carries what was found, within the error of "
+            "these drives: n"
+          : "N",
+      seen, rest);
 }
 
 std::string_view name_of(Verdict verdict) {

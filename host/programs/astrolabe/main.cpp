@@ -35,7 +35,10 @@ int run(int argc, char** argv) {
   program.foreign_words(kRosArguments, "--");
   const Command app = program.command();
   app.require_subcommand(1, 1);
-  app.footer("'astrolabe COMMAND --help' shows options and examples.");
+  app.footer(
+      "'astrolabe COMMAND --help' shows options and examples.\n"
+      "Exit codes: 0 done, also where a calibration cannot be judged; 1 something outside is wrong; 2 wrong\n"
+      "usage; 3 a calibration is not better than what the robot carries; 130 Ctrl-C.");
   add_all(app);
   const int code = program.run(argc, argv);
   flush_output();

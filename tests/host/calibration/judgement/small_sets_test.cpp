@@ -190,6 +190,18 @@ TEST(SmallSets, OfACircleEachWayAreNotJudgedHoweverMuchTheyImprove) {
   EXPECT_FALSE(judged.not_judged.empty());
 }
 
+TEST(SmallSets, OfACalibratedRobotHaveLittleToGain) {
+  const std::vector<SmallSet> sets = small_sets();
+  for (const SmallSet* set : {&sets[3], &sets[6]})
+    for (const bool calibrated : {true, false}) {
+      DriveModel model = robot_of_small_sets();
+      const WheelFactors in_use = model.loaded = carried_by(model.actual, kCarried[calibrated ? 0 : 2], 2);
+      const std::vector<Trajectory> runs = drives_of(*set, model, 2);
+      const CrossValidation judged = cross_validate(runs, in_use, estimate_ml(runs, in_use), {});
+      EXPECT_EQ(judged.little_to_gain(), calibrated) << set->name;
+    }
+}
+
 TEST(SmallSets, OfCirclesInOneDirectionAreNotBetterForOtherMotions) {
   DriveModel model = robot_of_small_sets();
   const WheelFactors in_use = model.loaded = carried_by(model.actual, kCarried[2], 1);

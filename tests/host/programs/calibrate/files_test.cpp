@@ -439,7 +439,7 @@ TEST_F(Files, ThatRobotsCarryAreNotReplacedWithoutAQuestion) {
          "\"ml\"\nabsolute = true\n[verdict]\nverdict = \"undecided\"\nsentence = \"Not "
          "shown to be better.\"\n";
   const Outcome asked = astrolabe({"upload", at("calib.toml"), "--port", simulator.port()});
-  EXPECT_EQ(asked.code, 1);  // nobody is there to answer
+  EXPECT_EQ(asked.code, kNotBetter);  // nobody is there to answer
   EXPECT_THAT(asked.err, HasSubstr("warning: Not shown to be better."));
   support::TerminalProgram upload(
       {ASTROLABE_PROGRAM, "upload", at("calib.toml"), "--port", simulator.port()});
