@@ -120,7 +120,8 @@ struct MlEstimate {
 ///   headings of truth that never change although the wheels turn the robot
 ///   truth that turns the other way: mirrored axes or exchanged wheels
 ///   runs that never turn, never go straight, or otherwise do not observe one of the three factors
-///   factors below half or above twice what is plausible: wrong units or counts
+///   factors below half or above twice what is plausible: wrong units or counts, or stamps that are no times of the samples;
+///   a wheelbase of about half or twice the loaded one
 /// Cost    linear in the samples; ten 3 m squares of 60 Hz take about 0.2 s.
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});

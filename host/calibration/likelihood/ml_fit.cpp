@@ -33,6 +33,9 @@ constexpr int kStretches = 4;  // one per side of a square, within which wind-up
 // corner.
 constexpr double kLeastSpacing = 1.25;  // wheelbases
 
+// A wheelbase beyond these parts of the loaded one was measured to the centre, or across the robot.
+constexpr double kHalfWheelbase = 0.56, kTwiceWheelbase = 1.8;
+
 /// The `power`-th root of a variance of which the logarithm changes by `change`, within limits.
 double scaled(double value, int power, double change, double least, double most) {
   const double step = std::clamp(change, -kLargestNoiseStep, kLargestNoiseStep);
@@ -43,6 +46,23 @@ double scaled(double value, int power, double change, double least, double most)
 double distance(const NoiseModel& a, const NoiseModel& b) {
   return std::max({std::abs(std::log(b.K_m / a.K_m)), 2 * std::abs(std::log(b.sigma_xy_m / a.sigma_xy_m)),
                    2 * std::abs(std::log(b.sigma_theta_rad / a.sigma_theta_rad))});
+}
+
+/// Whether wheels and ground truth go about as far, seen at steps that are longer than noise.
+bool go_equally_far(std::span<const PreparedRun> runs) {
+  constexpr double kStep_m = 0.3;
+  double wheels_m = 0, truth_m = 0;
+  for (const PreparedRun& run : runs) {
+    wheels_m += run.distance_m;
+    const BodySample* from = &run.truth.front();
+    for (const BodySample& sample : run.truth) {
+      const double step_m = std::hypot(sample.x_m - from->x_m, sample.y_m - from->y_m);
+      if (step_m < kStep_m) continue;
+      truth_m += step_m;
+      from = &sample;
+    }
+  }
+  return truth_m > 0.5 * wheels_m && truth_m < 2 * wheels_m;
 }
 
 /// Predicts the sums of the next pass after a small step from the information of the last pass.
@@ -101,7 +121,8 @@ void MlFit::fit(const MlOptions& options, bool started) {
   if (!started) {
     choose_samples(kRoughSpacing * loaded_.b_m, 1);
     maximise(kRoughly);
-    require_plausible();
+    if (!has_plausible_factors(4))
+      start_from_loaded();  // the stated wheelbase may be half or twice the right one
   }
   choose_samples(0, 1);
   if (options.robust) robust_ = RobustMode::tracker_and_wheels;
@@ -148,7 +169,6 @@ double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
 void MlFit::fit_with_noise(const Settled& settled) {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {
-    require_plausible();
     if (!passed_) pass_with_noise();
     const std::vector<Unknowns> steps = gauss_newton_step(state_.sums, fixed_, 0, prior());
     const double expected = fall_of(steps);
@@ -372,16 +392,48 @@ void MlFit::widen_uncertain_slip() {
   }
 }
 
+bool MlFit::has_plausible_factors(double most_b) const {
+  const Unknowns& u = state_.unknowns.front();
+  const auto inside = [](double ratio) { return ratio > 0.5 && ratio < 2; };
+  const double b_ratio = u[kB] / loaded_.b_m;
+  return inside(u[kCRight]) && inside(u[kCLeft]) && b_ratio > 1 / most_b && b_ratio < most_b;
+}
+
+/// Only the result is judged: a rough fit of noisy truth may stray. If the wheels did not go about as far as the truth, no fit
+/// helps, and the reason is known.
+void MlFit::start_from_loaded() {
+  if (!go_equally_far(runs_)) require_plausible();
+  for (Unknowns& u : state_.unknowns) u.head<kFactors>() << loaded_.c_r, loaded_.c_l, loaded_.b_m, u[kE];
+  state_.moves = moves_of(state_.unknowns);
+  passed_ = false;
+}
+
 void MlFit::require_plausible() const {
   const Unknowns& u = state_.unknowns.front();
-  const auto outside = [](double ratio) { return !(ratio > 0.5 && ratio < 2); };
-  if (outside(u[kCRight]) || outside(u[kCLeft]) || outside(u[kB] / loaded_.b_m))
+  const double b_ratio = u[kB] / loaded_.b_m;
+  const auto like_loaded = [](double c) { return c > 0.8 && c < 1.25; };
+  const bool sizes_fit = like_loaded(u[kCRight] / loaded_.c_r) && like_loaded(u[kCLeft] / loaded_.c_l);
+  if (sizes_fit && (b_ratio < kHalfWheelbase || b_ratio > kTwiceWheelbase)) {
+    const std::string b = fmt::format("{:.3g}", u[kB]), loaded = fmt::format("{:.3g}", loaded_.b_m);
     throw Error(
         fmt::format(
-            "c_R = {:.3g}, c_L = {:.3g} and b = {:.3g} m came out, which no robot of {:.3g} m "
-            "wheelbase has: check the unit of the ground truth, the wheel diameter and the counts of a turn",
-            u[kCRight], u[kCLeft], u[kB], loaded_.b_m),
-        LikelihoodProblem::implausible_factors);
+            "the wheels have the stated size, but the wheelbase comes out as {} m instead of {} m: it is "
+            "the distance between the wheels, not that from one to the centre, nor the robot's width",
+            b, loaded),
+        LikelihoodProblem::wheelbase_unlike, {b, loaded});
+  }
+  if (has_plausible_factors(2)) return;
+  const std::string found = fmt::format(
+      "c_R = {:.3g}, c_L = {:.3g} and b = {:.3g} m came out, which no robot of {:.3g} m wheelbase has",
+      u[kCRight], u[kCLeft], u[kB], loaded_.b_m);
+  if (go_equally_far(runs_))
+    throw Error(found +
+                    ", although its wheels go as far as the ground truth: check the stamps of both, which "
+                    "may be times of "
+                    "arrival, and the resolution of the encoders and of the ground truth",
+                LikelihoodProblem::stamps_or_resolution);
+  throw Error(found + ": check the unit of the ground truth, the wheel diameter and the counts of a turn",
+              LikelihoodProblem::implausible_factors);
 }
 
 }  // namespace astro::calibration

@@ -88,6 +88,9 @@ class MlFit {
   void find_spacing();
   bool innovations_are_independent() const;
   void widen_uncertain_slip();
+  /// Wheels between half and twice the nominal ones, and a wheelbase at most so many times the loaded one or less than it.
+  bool has_plausible_factors(double most_b) const;
+  void start_from_loaded();
   void require_plausible() const;
 
   const std::vector<PreparedRun>& runs_;

@@ -390,6 +390,7 @@ Clocked clocked(const Trajectory& run, const WheelFactors& loaded, const std::op
   constexpr std::size_t kMostSteps = 8;
   constexpr double kAsGood = 0.002;  // of the correlation
   Clocked found{clock_of(run, loaded, before)};
+  if (!in_common(found.clock) || found.clock.rival_offset_s) return found;  // it is not known where to look
   const Trajectory* now = &run;
   while (true) {
     const auto step = find_clock_step(*now, found.clock, loaded.b_m);

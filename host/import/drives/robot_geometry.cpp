@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <variant>
 
@@ -39,8 +40,11 @@ RobotGeometry of_controller(std::string_view text, const fs::path& path, const s
   if (found.wheel_radius_m > 0) geometry.wheel_diameter_m = 2 * found.wheel_radius_m;
   if (found.wheel_separation_m > 0)
     geometry.wheelbase_m = found.wheel_separation_m * found.wheel_separation_multiplier;
-  geometry.c_r = found.right_wheel_radius_multiplier;
-  geometry.c_l = found.left_wheel_radius_multiplier;
+  geometry.c_r = std::abs(found.right_wheel_radius_multiplier);
+  geometry.c_l = std::abs(found.left_wheel_radius_multiplier);
+  geometry.right_backward = found.right_wheel_radius_multiplier < 0;
+  geometry.left_backward = found.left_wheel_radius_multiplier < 0;
+  geometry.open_loop = found.open_loop;
   // If a side has several wheels, the first one represents them, because they turn together.
   if (!found.left_wheel_names.empty() && !found.right_wheel_names.empty())
     geometry.joints = {found.left_wheel_names.front(), found.right_wheel_names.front()};

@@ -23,6 +23,8 @@ namespace astro::importing {
 ///   turns_against_exchanged  the drive, if its wheels were exchanged because a person said that they are in the file; also
 ///                            in place of below_origin
 ///   odometry_is_truth        the topic
+///   odometry_of_commands     the topic
+///   joints_backward          the drive, and left, right or both
 enum class ImportProblem {
   size_not_above_zero,
   sizes_not_described,
@@ -45,7 +47,9 @@ enum class ImportProblem {
   per_interval_likely,
   encoders_reversed,
   drives_backward,
-  odometry_is_truth
+  odometry_is_truth,
+  odometry_of_commands,
+  joints_backward
 };
 
 /// The wheels of any robot as its own program describes them: nominal sizes, and the factors by which its
@@ -54,8 +58,10 @@ struct RobotGeometry {
   std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
   double c_r = 1, c_l = 1;
   double e = 0, kappa0 = calibration::kUsualKappa0;
-  JointPair joints;      // "" unless the file names the wheels' joints
-  std::string name, id;  // of the robot, "" if unknown
+  bool left_backward = false, right_backward = false;  // the joint turns so when the robot drives forward
+  bool open_loop = false;                              // its odometry is made of commands
+  JointPair joints;                                    // "" unless the file names the wheels' joints
+  std::string name, id;                                // of the robot, "" if unknown
 
   /// The factors of its odometry. Precondition: the wheelbase is known.
   calibration::WheelFactors factors() const { return {c_r, c_l, *wheelbase_m, e, kappa0}; }
@@ -70,8 +76,8 @@ bool is_controller_file(const std::filesystem::path& path);
 ///   TOML   [parameters] wheel_diameter, counts_per_motor_rev, gear_numerator, gear_denominator (1 unless given), b, c_R,
 ///          c_L, e, kappa0, in SI units: as the robot's parameters are exported; or a calibration that the robot carries, with
 ///          its [nominal] wheel
-///   YAML   parameters of ROS 2's diff_drive_controller; `node` chooses among several. Its multipliers are c_R and c_L, and
-///          the wheelbase is wheel_separation times its multiplier.
+///   YAML   parameters of ROS 2's diff_drive_controller; `node` chooses among several. Its multipliers are c_R and c_L (below
+///          zero: the joint turns backward), and the wheelbase is wheel_separation times its multiplier.
 ///
 /// Throws astro::Error naming the file if it cannot be read, and importing::UnclearChoice if it is unclear
 /// which node is meant.

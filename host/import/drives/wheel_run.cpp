@@ -170,6 +170,22 @@ void remark_on_unused(const RobotGeometry& given, const RobotGeometry& used, std
        ImportProblem::sizes_not_used});
 }
 
+/// Reverses joints that turn backward when the robot drives forward.
+void turn_forward(const std::string& name, const RobotGeometry& given, WheelTrack& track) {
+  if (!given.left_backward && !given.right_backward) return;
+  for (WheelSample& sample : track.samples) {
+    if (given.left_backward) sample.left = -sample.left;
+    if (given.right_backward) sample.right = -sample.right;
+  }
+  const std::string side = !given.left_backward ? "right" : given.right_backward ? "both" : "left";
+  track.remarks.push_back(
+      {"a multiplier below zero: the joint of the " +
+           (side == "both" ? "left wheel and that of the right one turn" : side + " wheel turns") +
+           " backward when the robot drives forward, and was reversed",
+       ImportProblem::joints_backward,
+       {name, side}});
+}
+
 /// Samples in a second, from the first to the last.
 double rate_hz(const std::vector<WheelSample>& samples) {
   const double span_s = 1e-9 * static_cast<double>(samples.back().time_ns - samples.front().time_ns);
@@ -184,6 +200,13 @@ std::string summary_of(const std::vector<WheelSample>& counts) {
 }  // namespace
 
 WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const RobotGeometry& given) {
+  if (given.open_loop && !wheels.track.odometry.empty())
+    throw Error("'" + name + "': the controller makes its odometry " + wheels.track.odometry +
+                    " of commands (open_loop: true), not of the wheels: record what the encoders say, such "
+                    "as the states of "
+                    "the joints",
+                ImportProblem::odometry_of_commands, {wheels.track.odometry});
+  if (wheels.track.odometry.empty() && !wheels.info) turn_forward(name, given, wheels.track);
   const RobotGeometry geometry = geometry_of(wheels, given, name);
   const Counter counter(wheels.track, geometry);
   refuse_leaps(name, wheels.track, counter);

@@ -8,14 +8,16 @@
 namespace astro::importing {
 
 /// What is wrong with a parameter of a controller. Values: the file, the line and the text there.
-enum class ControllerProblem { not_above_zero };
+enum class ControllerProblem { not_above_zero, zero };
 
-/// The robot's parameters in a file for ROS 2's diff_drive_controller. The multipliers are those that were
-/// loaded while the robot drove: a wheel's radius is wheel_radius times its multiplier.
+/// The robot's parameters in a file for the diff_drive_controller of ROS 2 or ROS 1. The multipliers are those that were
+/// loaded while the robot drove: a wheel's radius is wheel_radius times its multiplier, and below zero if its joint turns
+/// backward when the robot drives forward.
 struct DiffDriveParameters {
   std::string node;  // "diff_drive_controller", "/robot/base_controller"
   double wheel_radius_m = 0, wheel_separation_m = 0;
   double left_wheel_radius_multiplier = 1, right_wheel_radius_multiplier = 1, wheel_separation_multiplier = 1;
+  bool open_loop = false;  // its odometry is made of commands
   std::vector<std::string> left_wheel_names, right_wheel_names;
 };
 

@@ -185,5 +185,34 @@ TEST(MlRefuses, TruthInMillimetres) {
   EXPECT_THAT(told(runs), Tells(Likelihood::implausible_factors));
 }
 
+TEST(MlRefuses, StampsThatAreTimesOfArrivalOfBursts) {
+  std::vector<Trajectory> runs = squares(astro_drive(), 4, 2);
+  for (Trajectory& run : runs) {
+    // All that was sent within 0.4 s has one stamp, of which the first sample stays.
+    std::vector<WheelSample> first;
+    for (WheelSample sample : run.wheels) {
+      sample.time_s = 0.4 * std::ceil(sample.time_s / 0.4 + (first.size() % 3 == 0 ? 0.8 : 0.0));
+      if (first.empty() || sample.time_s > first.back().time_s) first.push_back(sample);
+    }
+    run.wheels = first;
+  }
+  // The wheels go as far as the truth, so nothing is said of units.
+  try {
+    const MlEstimate found = estimate_ml(runs, {1, 1, 0.29});
+    EXPECT_NEAR(found.factors.c_r, astro_drive().actual.c_r, 3 * found.se.c_r);
+  } catch (const Error& error) {
+    EXPECT_NE(error.kind(), Kind(Likelihood::implausible_factors)) << error.what();
+  }
+}
+
+TEST(MlRefuses, AWheelbaseOfHalfOrTwiceTheLoadedOne) {
+  const std::vector<Trajectory> runs = squares(astro_drive(), 2);
+  for (const double loaded_m : {0.145, 0.58})
+    EXPECT_EQ(support::told_by([&] {
+                estimate_ml(runs, {1, 1, loaded_m});
+              }).kind,
+              Kind(Likelihood::wheelbase_unlike));
+}
+
 }  // namespace
 }  // namespace astro::calibration

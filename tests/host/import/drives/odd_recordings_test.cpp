@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/formats/tables/table.hpp"
 #include "host/import/drives/import_drives.hpp"
@@ -183,6 +184,12 @@ Recording wired(const Robot& robot, const std::function<void(WheelsAt&)>& fault,
   Recording recording = robot.with([&](const Trajectory& run) { return counts_in(changed(run, fault)); });
   recording.choices.wheels.exchanged = swapped;
   recording.choices.wheels.reversed = reversed;
+  return recording;
+}
+
+Recording with_wheelbase(const Robot& robot, double wheelbase_m) {
+  Recording recording = robot.with([](const Trajectory& run) { return counts_in(run); });
+  recording.choices.geometry.wheelbase_m = wheelbase_m;
   return recording;
 }
 
@@ -528,6 +535,19 @@ std::vector<OddKind> odd_kinds() {
              robot, [](WheelsAt& at) { swap_wheels(at), reverse_wheels(at); }, false, false);
        },
        {Doubt::drives_backward}},
+      {"a joint that turns backward, by its multiplier",
+       [](const Robot& robot) {
+         Recording recording = wired(
+             robot, [](WheelsAt& at) { at.right_m = -at.right_m; }, false, false);
+         recording.choices.geometry.right_backward = true;
+         return recording;
+       }},
+      {"half the wheelbase stated",
+       [=](const Robot& robot) { return with_wheelbase(robot, Robot::kWheelbase_m / 2); },
+       {calibration::LikelihoodProblem::wheelbase_unlike}},
+      {"twice the wheelbase stated",
+       [=](const Robot& robot) { return with_wheelbase(robot, 2 * Robot::kWheelbase_m); },
+       {calibration::LikelihoodProblem::wheelbase_unlike}},
       {"one encoder twice",
        [](const Robot& robot) {
          return wired(

@@ -158,6 +158,29 @@ TEST(DiffDriveYaml, TheControllersParametersAreRead) {
   EXPECT_THAT(read.right_wheel_names, ElementsAre("rw"));
 }
 
+TEST(DiffDriveYaml, JointsThatTurnBackwardAndOpenLoopsAreRead) {
+  const DiffDriveParameters read = diff_drive_parameters(
+      std::string(kYaml) + "      right_wheel_radius_multiplier: -1.02\n      open_loop: true\n", "c.yaml");
+  EXPECT_EQ(read.right_wheel_radius_multiplier, -1.02);
+  EXPECT_TRUE(read.open_loop);
+  EXPECT_THAT(
+      [] { diff_drive_parameters("a:\n  wheel_radius: 1\n  left_wheel_radius_multiplier: 0\n", "c.yaml"); },
+      ThrowsTelling(ControllerProblem::zero, "c.yaml", "3", "0"));
+}
+
+TEST(DiffDriveYaml, NestedParametersOfRos1AreRead) {
+  const DiffDriveParameters read = diff_drive_parameters(
+      "robot:\n  mobile_base:\n    controller:\n      type: diff_drive_controller/DiffDriveController\n"
+      "      left_wheel: lw\n      right_wheel: [rw, rear_rw]\n      wheel_radius: 0.033\n"
+      "      wheel_separation: 0.16\n      pose_covariance_diagonal: [0.1, 0.2]\n",
+      "c.yaml");
+  EXPECT_EQ(read.node, "robot/mobile_base/controller");
+  EXPECT_EQ(read.wheel_radius_m, 0.033);
+  EXPECT_EQ(read.wheel_separation_m, 0.16);
+  EXPECT_THAT(read.left_wheel_names, ElementsAre("lw"));
+  EXPECT_THAT(read.right_wheel_names, ElementsAre("rw", "rear_rw"));
+}
+
 TEST(DiffDriveYaml, SeveralControllersAndBadValuesAreRefused) {
   const std::string two =
       std::string(kYaml) + "other:\n  ros__parameters: {wheel_radius: 1, wheel_separation: 2}\n";
