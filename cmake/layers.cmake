@@ -31,7 +31,7 @@ set(ASTRO_LAYERS
   "host/emulator/chip           : hal/sim hal/teensy40/registers host/emulator/core"
   "host/emulator/core           : hal/teensy40/registers host/base"
   "host/emulator/robot          : common hal/sim hal/teensy40/registers host/base host/emulator/chip host/emulator/core host/formats/files host/robot/port host/simulation/robot"
-  "host/experiment/analysis     : common host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/experiment/files host/recording host/report host/robot/parameters"
+  "host/experiment/analysis     : common host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/calibration/preparation host/experiment/files host/recording host/report host/robot/parameters"
   "host/experiment/drive        : host/base host/calibration/end_poses host/experiment/analysis host/experiment/files host/recording host/robot/client host/robot/motion host/robot/parameters host/truth/source"
   "host/experiment/files        : common host/base host/calibration/end_poses host/calibration/motion host/recording"
   "host/film/camera             : host/base host/film/picture"

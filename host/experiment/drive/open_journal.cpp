@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
+#include "host/experiment/analysis/first_drive.hpp"
 #include "host/experiment/analysis/squares.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/experiment/files/experiment_folder.hpp"
@@ -62,6 +63,8 @@ std::optional<Remark> why_unusable(const Journal& journal, const RunSpec& spec, 
     return Remark{run.warning->sentence, ExperimentProblem::recording_cut_off, {file.string()}};
   if (const std::string why = why_other_run(journal, spec, run.info); !why.empty())
     return unusable(file.string() + " " + why);
+  if (spec.title() == runs_of_phase(journal.plan, 0, 1).front().title())
+    if (const auto why = why_wrong_robot(run, "the first drive")) return why;
   if (spec.kind != "square" || (journal.plan.truth == "film" && run.truth.empty())) return std::nullopt;
   try {
     recording::ends_of(run);

@@ -40,7 +40,8 @@ Journal open_journal(const std::filesystem::path& folder, const Plan& plan, cons
 bool is_over(const Journal& journal, std::size_t phase);
 
 /// Throws astro::Error naming the recording if the experiment cannot be calibrated or reported on with it: it was cut off, is of
-/// another run, robot or phase's factors, or is a square of which an end is not known. Ground truth that comes once a phase is
+/// another run, robot or phase's factors, is a square of which an end is not known, or is the first drive and speaks against
+/// the robot's wiring or sizes (first_drive.hpp). Ground truth that comes once a phase is
 /// driven (ExperimentHooks::give_truth) may be missing.
 void require_usable(const std::filesystem::path& folder, const Journal& journal, const RunSpec& spec,
                     const recording::Run& run);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/until.hpp"
@@ -73,6 +74,28 @@ class MlExperiment : public testing::Test {
   std::vector<std::string> driven_;
   std::vector<Remark> notices_;
 };
+
+/// Both sides exchanged, so that the loops of the wheels work and the robot drives in mirror image.
+class ExchangedSides : public MlExperiment {
+ protected:
+  ExchangedSides() : other_(exchanged()) {}
+  static sim::Config exchanged() {
+    sim::Config config = scaled_robot();
+    config.wiring.motors_swapped = config.wiring.encoders_swapped = true;
+    return config;
+  }
+  Desk other_;
+};
+
+TEST_F(ExchangedSides, EndTheExperimentAtTheFirstDriveAlsoIfItIsResumed) {
+  for (int time = 0; time < 2; ++time) {
+    driven_.clear();
+    const Remark told = support::told_by(
+        [&] { run_experiment(other_.client, other_.truth, small_plan(2), folder_.path(), hooks_); });
+    EXPECT_EQ(told.kind, Kind(calibration::PreparationProblem::mirrored)) << told.sentence;
+    EXPECT_EQ(driven_.size(), time == 0 ? 1U : 0U);
+  }
+}
 
 TEST_F(MlExperiment, IsWhatHappensWhereCamerasFollowTheRobot) {
   const Results results = run(small_plan(2));
