@@ -123,7 +123,8 @@ udp::socket connect_udp(io_context& io, const udp::endpoint& to) {
 /// The socket is bound to the group itself, so that it receives nothing else.
 udp::socket join_multicast(io_context& io, const udp::endpoint& group, const address& local) {
   try {
-    if (!local.is_v4()) throw boost::system::system_error(asio::error::address_family_not_supported);
+    if (!local.is_v4() || !group.address().is_v4())
+      throw boost::system::system_error(asio::error::address_family_not_supported);
     udp::socket socket = open_udp(io, group.protocol());
     socket.set_option(udp::socket::reuse_address(true));
     socket.bind(group);

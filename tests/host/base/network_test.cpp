@@ -81,6 +81,8 @@ TEST(Network, NoSocketGoesToAChildProcess) {
 TEST(Network, AGroupOfIpv4IsNotJoinedAtAnAddressOfIpv6) {
   io_context io;
   EXPECT_THROW(join_multicast(io, {address_v4({239, 255, 42, 99}), 0}, address_v6::loopback()), Error);
+  EXPECT_THROW(join_multicast(io, {boost::asio::ip::make_address("ff02::1"), 0}, address_v4::loopback()),
+               Error);
 }
 
 /// Lowers the limit of open files to those that are open.
