@@ -89,6 +89,22 @@ std::string stamp_field(const MessageLayout& layout) {
   return "";
 }
 
+std::optional<NumberField> number_field(const MessageLayout& layout, const std::string& path) {
+  const auto reader = FieldReader::of(layout, {path});
+  const auto id = reader ? reader->number_type() : std::nullopt;
+  return id ? std::optional(NumberField{path, *id}) : std::nullopt;
+}
+
+std::optional<TypeId> FieldReader::number_type() const {
+  const MessageLayout::Type* type = &layout_.types.front();
+  for (const Step& step : paths_.front()) {
+    const MessageLayout::Field& field = type->fields[step.field];
+    if (field.id != kNested) return field.id;
+    type = &layout_.types[field.type];
+  }
+  return std::nullopt;
+}
+
 std::optional<FieldReader> FieldReader::of(const MessageLayout& layout,
                                            const std::vector<std::string>& paths) {
   FieldReader reader;

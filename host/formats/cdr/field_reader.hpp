@@ -25,6 +25,9 @@ struct NumberField {
 /// out, and of a fixed array the first eight are taken.
 std::vector<NumberField> number_fields(const MessageLayout& layout);
 
+/// The number to which a path leads, also an element of a sequence; nothing if it leads to a time, or to no number.
+std::optional<NumberField> number_field(const MessageLayout& layout, const std::string& path);
+
 /// The path of the time at which the publisher says that the message was true: of its first header, or else
 /// of a time of its own. "" if it has none.
 std::string stamp_field(const MessageLayout& layout);
@@ -44,6 +47,9 @@ class FieldReader {
   /// The values of the paths in their order; valid until the next call. Null if the message (CDR, in either
   /// byte order) does not fit the layout, or has more than padding behind it.
   const std::vector<FieldValue>* read(ByteView message);
+
+  /// The type of the number to which the only path leads; nothing if it leads to a time.
+  std::optional<TypeId> number_type() const;
 
  private:
   struct Step {

@@ -158,11 +158,9 @@ ros2::NumberField complete(const std::filesystem::path& path, std::span<const ba
     return *single;
   }
   const auto layout = layout_of(topic);
-  if (!layout || !ros2::FieldReader::of(*layout, {place.field}))
-    refuse_fields(path, topic, topic.name + " has no number '" + place.field + "'");
-  for (const ros2::NumberField& field : ros2::number_fields(*layout))
-    if (field.path == place.field) return field;
-  return {place.field, ros2::kFloat64};  // an element of a sequence
+  const auto field = layout ? ros2::number_field(*layout, place.field) : std::nullopt;
+  if (!field) refuse_fields(path, topic, topic.name + " has no number '" + place.field + "'");
+  return *field;
 }
 
 }  // namespace

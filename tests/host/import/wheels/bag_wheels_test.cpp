@@ -180,10 +180,28 @@ TEST_F(BagWheels, FieldsOfATypeThatTheBagDefinesAreRecognised) {
   BagWheelSelection exchanged;
   exchanged.topic = "/base/state:encoders.rightEncoder,encoders.leftEncoder";
   EXPECT_EQ(wheels_in_bag(path, exchanged).samples[2].left, -18);
-  exchanged.topic = "/base/state:encoders.leftEncoder,left";
-  EXPECT_THAT([&] { wheels_in_bag(path, exchanged); },
-              ThrowsTelling(WheelProblem::fields_unclear, "battery", "encoders.leftEncoder",
-                            "encoders.rightEncoder", "left_pwm", "right_pwm"));
+  for (const char* none : {"left", "header.stamp"}) {
+    exchanged.topic = std::string("/base/state:encoders.leftEncoder,") + none;
+    EXPECT_THAT([&] { wheels_in_bag(path, exchanged); },
+                ThrowsTelling(WheelProblem::fields_unclear, "battery", "encoders.leftEncoder",
+                              "encoders.rightEncoder", "left_pwm", "right_pwm"));
+  }
+}
+
+TEST_F(BagWheels, ElementsOfASequenceOfWholeNumbersAreCounts) {
+  std::vector<Sent> sent;
+  for (int i = 0; i < 3; ++i) {
+    CdrWriter out;
+    out.number(std::uint32_t{2});
+    out.number(std::int32_t{5} * i);
+    out.number(std::int32_t{7} * i);
+    sent.push_back({"/ticks", "my_msgs/msg/Ticks", "int32[] wheel_ticks\n", kSecond_ns + i, out.bytes()});
+  }
+  BagWheelSelection selection;
+  selection.topic = "/ticks:wheel_ticks[0],wheel_ticks[1]";
+  const WheelTrack track = wheels_in_bag(mcap(sent), selection);
+  EXPECT_EQ(track.unit, WheelUnit::counts);
+  EXPECT_EQ(track.samples[2].right, 14);
 }
 
 /// As recorded before Iron, without definitions.
