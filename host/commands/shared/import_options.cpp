@@ -154,6 +154,15 @@ constexpr Advice kImportAdvice[] = {
      "..._m, "
      "..._rad_s, ..._rpm, ..._m_s; - for one that is not used)"},
     {importing::WheelTableProblem::time_unit_unknown, ": say it with --wheel-columns"},
+    {importing::WheelTableProblem::times_fall,
+     ": cut the table there if its clock started again, or sort the rows if they are out of order"},
+    {truth::TrackProblem::time_not_increasing,
+     ": cut the table there if its clock started again, or sort the rows if they are out of order"},
+    {importing::ImportProblem::time_unit_doubtful,
+     ": say the unit with --wheel-columns or --truth-columns (time_s, time_ms, time_us, time_cs for "
+     "hundredths of a "
+     "second); numbers of frames are no times, so write seconds instead"},
+    {importing::ImportProblem::no_poses, ": name a recording of the whole drive"},
     {importing::WheelTableProblem::times_too_coarse, ": write the times with more digits"},
     {truth::TrackProblem::times_too_coarse, ": write the times with more digits"},
     {importing::CounterProblem::range_unknown, ": give the range with --counter-range"},

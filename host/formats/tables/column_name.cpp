@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cstddef>
 
+#include "host/base/text/trimmed.hpp"
+
 namespace astro::tables {
 namespace {
 
@@ -36,7 +38,7 @@ std::optional<std::string> take_brackets(std::string_view& text) {
   if (end == std::string_view::npos || (text[end] != ')' && text[end] != ']')) return std::nullopt;
   const std::size_t open = text.find_last_of("([", end);
   if (open == std::string_view::npos || open == 0) return std::nullopt;
-  std::string unit(text.substr(open + 1, end - open - 1));
+  std::string unit(trimmed(text.substr(open + 1, end - open - 1)));
   std::transform(unit.begin(), unit.end(), unit.begin(), lower);
   text = text.substr(0, open);
   return unit;

@@ -18,7 +18,7 @@ constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kBlanks = " \t";
 constexpr std::size_t kMostCells = 100'000, kMostShown = 40, kLongestNumber = 64;
 
 std::string_view without_quotes(std::string_view cell) {
-  while (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
     cell = trimmed(cell.substr(1, cell.size() - 2), kBlanks);
   return cell;
 }
@@ -27,7 +27,10 @@ std::string_view without_quotes(std::string_view cell) {
 std::size_t end_of_cell(std::string_view text, char separator) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin != std::string_view::npos && text[begin] == '"') {
-    const std::size_t close = text.find('"', begin + 1);
+    // A doubled quote is one that the cell holds.
+    std::size_t close = text.find('"', begin + 1);
+    while (close != std::string_view::npos && text.substr(close + 1, 1) == "\"")
+      close = text.find('"', close + 2);
     if (close != std::string_view::npos) return text.find(separator, close + 1);
   }
   return text.find(separator);

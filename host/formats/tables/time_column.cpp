@@ -98,7 +98,7 @@ std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns) 
   constexpr std::size_t kRowsLookedAt = 400;
   if (columns.power) return TimeFormat{TimeKind::number, *columns.power};
   std::vector<double> times;  // without repeated ones: whole seconds may have hundreds of rows in each
-  double first = 0, last = 0;
+  double last = 0, span = 0;
   bool several = false;
   table.rewind();
   while (table.next()) {
@@ -109,14 +109,14 @@ std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns) 
     }
     const auto value = cell_number(cell, table.style());
     if (!value) continue;
-    if (times.empty()) first = *value;
     several = several || !times.empty();
+    if (several) span += std::max(0.0, *value - last);  // times may start again
     last = *value;
     if (times.size() < kRowsLookedAt && (times.empty() || *value != times.back())) times.push_back(*value);
   }
   table.rewind();
   if (several && times.size() == 1) return std::nullopt;
-  const auto power = power_found(times, last - first);
+  const auto power = power_found(times, span);
   if (!power) return std::nullopt;
   return TimeFormat{TimeKind::number, *power};
 }
@@ -129,7 +129,8 @@ std::optional<std::int64_t> TimeReader::read(std::string_view cell, std::string_
     if (!more) return std::nullopt;
     *time += *more;
   }
-  if (format_.kind != TimeKind::clock) return time;
+  if (format_.kind == TimeKind::number) return continued(*time);
+  if (format_.kind == TimeKind::date) return time;
   *time += passed_ns_;
   if (last_ && *time < *last_ - kDay_ns / 2) {
     passed_ns_ += kDay_ns;
@@ -144,6 +145,27 @@ std::optional<std::int64_t> TimeReader::read(std::string_view cell, std::string_
   }
   last_ = time;
   return time;
+}
+
+/// A number that falls by nearly one of these ranges went over its end if the step is one of the usual ones then.
+std::int64_t TimeReader::continued(std::int64_t time_ns) {
+  constexpr std::int64_t kMicro_ns = 1'000, kMilli_ns = 1'000'000, k16Bits = 65'536, k32Bits = 4'294'967'296;
+  constexpr std::int64_t kUsual = 3;  // times the longest step
+  time_ns += passed_ns_;
+  if (last_ && time_ns < *last_ && longest_ns_ > 0) {
+    for (const std::int64_t range_ns :
+         {k16Bits * kMicro_ns, k16Bits * kMilli_ns, k32Bits * kMicro_ns, k32Bits * kMilli_ns}) {
+      const std::int64_t step_ns = time_ns + range_ns - *last_;
+      if (step_ns <= 0 || step_ns > kUsual * longest_ns_ || *last_ - passed_ns_ >= range_ns) continue;
+      passed_ns_ += range_ns;
+      time_ns += range_ns;
+      started_again_s_ = 1e-9 * static_cast<double>(range_ns);
+      break;
+    }
+  }
+  if (last_) longest_ns_ = std::max(longest_ns_, time_ns - *last_);
+  last_ = time_ns;
+  return time_ns;
 }
 
 std::optional<std::int64_t> TimeReader::read(const Table& table) {

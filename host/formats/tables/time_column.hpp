@@ -40,7 +40,8 @@ struct TimeColumns {
 /// Precondition: `columns` has been settled. Leaves the table before its first row.
 std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns);
 
-/// Reads the times of successive rows. Times of day go on after midnight.
+/// Reads the times of successive rows. Times of day go on after midnight, and numbers after the end of 16 or 32 bits of
+/// milliseconds or microseconds, as those of microcontrollers.
 class TimeReader {
  public:
   TimeReader(const TimeColumns& columns, TimeFormat format, NumberStyle style)
@@ -49,13 +50,19 @@ class TimeReader {
   /// Nothing if the cell is no time of the format.
   std::optional<std::int64_t> read(std::string_view cell, std::string_view fraction = {});
   std::optional<std::int64_t> read(const Table& table);
+  /// After how many seconds numbers started again, if they did.
+  std::optional<double> started_again_s() const { return started_again_s_; }
 
  private:
+  std::int64_t continued(std::int64_t time_ns);
+
   TimeColumns columns_;
   TimeFormat format_;
   NumberStyle style_;
   std::int64_t passed_ns_ = 0;
   std::optional<std::int64_t> last_;
+  std::int64_t longest_ns_ = 0;  // step so far
+  std::optional<double> started_again_s_;
 };
 
 /// Rows that repeat the time of the row above: copies, or rows whose times have too few digits.

@@ -225,14 +225,24 @@ std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& f
                      truth::axis_text(floor.up));
 }
 
+/// The unit of time that was assumed, or "".
+std::string assumed_in(const std::vector<Remark>& remarks) {
+  for (const Remark& remark : remarks)
+    if (remark.kind == WheelRemark::time_unit_assumed || remark.kind == truth::TrackRemark::time_unit_assumed)
+      return remark.values.at(0);
+  return "";
+}
+
 /// Combines wheels and truth. If the wheels turn the robot in the direction opposite to the truth, one of
 /// four things is wrong, and the motion alone cannot show which: the up axis is reversed, left and right
 /// wheel are exchanged, both encoders are reversed (they count backward then), or the recording is a mirror image. Trackers have their origin on the floor, so a
 /// body clearly below the origin shows that the axis is reversed. Otherwise nothing is guessed, because with
 /// exchanged wheels the right wheel would get the left factor. If both turn alike but the body is below the
 /// origin, two of the three may be wrong and hide each other, so the axis must be given.
-PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const ImportedTruth& truth,
-                    const RobotGeometry& given, const ImportChoices& choices) {
+PairedDrive pair_up(const std::string& name, const DriveFiles& files, ImportedWheels wheels,
+                    const ImportedTruth& truth, const RobotGeometry& given, const ImportChoices& choices) {
+  const AssumedTimeUnit wheel_times{files.wheels.string(), assumed_in(wheels.track.remarks)},
+      truth_times{files.truth.string(), assumed_in(truth.track.facts.remarks)};
   const std::optional<double> counter_range = wheels.track.counter_range;
   WheelRun made = run_of_wheels(name, std::move(wheels), given);
   PairedDrive drive{
@@ -248,6 +258,7 @@ PairedDrive pair_up(const std::string& name, ImportedWheels wheels, const Import
   drive.report.floor = std::move(floor.findings);
   all.insert(all.end(), drive.report.floor.remarks.begin(), drive.report.floor.remarks.end());
   require_turning_wheels(name, drive.run, drive.report.floor);
+  require_times_alike(drive.run, wheel_times, truth_times);
   settle_direction(name, drive.run, choices.wheels.exchanged, drive.report.floor, all);
   drive.report.summary += summary_of(truth, drive.report.floor);
   return drive;
@@ -270,7 +281,7 @@ PairedDrive paired(const std::string& name, const DriveFiles& files, const Impor
   const ImportedTruth truth = read_truth(files.truth, choices.truth);
   refuse_own_odometry(files, wheels.track.odometry, truth);
   try {
-    return pair_up(name, std::move(wheels), truth, sizes, choices);
+    return pair_up(name, files, std::move(wheels), truth, sizes, choices);
   } catch (const Error& error) {
     throw Error(error.in("'" + files.wheels.string() + "' with '" + files.truth.string() + "': "));
   }

@@ -25,6 +25,8 @@ namespace astro::importing {
 ///   odometry_is_truth        the topic
 ///   odometry_of_commands     the topic
 ///   joints_backward          the drive, and left, right or both
+///   no_poses                 the file of the ground truth, and how many poses it has
+///   time_unit_doubtful       the file, the unit that was assumed, and the seconds that the drive lasts by it and by the other file
 enum class ImportProblem {
   size_not_above_zero,
   sizes_not_described,
@@ -49,7 +51,9 @@ enum class ImportProblem {
   drives_backward,
   odometry_is_truth,
   odometry_of_commands,
-  joints_backward
+  joints_backward,
+  no_poses,
+  time_unit_doubtful
 };
 
 /// The wheels of any robot as its own program describes them: nominal sizes, and the factors by which its

@@ -7,6 +7,7 @@
 #include "host/formats/tables/text_file.hpp"
 #include "host/formats/tables/units.hpp"
 #include "host/import/drives/bag_truth.hpp"
+#include "host/import/drives/robot_geometry.hpp"
 #include "host/truth/files/tracker_file.hpp"
 
 namespace astro::importing {
@@ -36,6 +37,10 @@ void change_unit(truth::BodyTrack& track, const std::string& unit) {
 
 ImportedTruth read_truth(const std::filesystem::path& path, const TruthSelection& selection) {
   ImportedTruth truth{read(path, selection), {}};
+  if (const std::size_t poses = truth.track.samples.size(); poses < 2)
+    throw Error("'" + path.string() + "' has " + (poses == 0 ? "no poses" : "a single pose") +
+                    ": the ground truth of a drive follows it from its start to its end",
+                ImportProblem::no_poses, {path.string(), std::to_string(poses)});
   if (!selection.length_unit.empty()) change_unit(truth.track, selection.length_unit);
   truth.lost = truth::mark_lost(truth.track);
   return truth;

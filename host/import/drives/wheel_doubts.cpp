@@ -1,5 +1,7 @@
 #include "host/import/drives/wheel_doubts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -45,7 +47,46 @@ double turned_rad(const recording::Run& run) {
   return std::max(0.0, most - least);
 }
 
+/// How long a drive lasts: from where it first leaves the place of its start to where it last comes to that of its end. 0 if it
+/// goes nowhere.
+template <class Sample>
+double moving_s(const std::vector<Sample>& samples, const auto& is_used) {
+  constexpr double kLeft_m = 0.1;
+  const auto far = [](const Sample& a, const Sample& b) {
+    return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) > kLeft_m;
+  };
+  const Sample *begin = nullptr, *end = nullptr, *first = nullptr, *last = nullptr;
+  for (const Sample& sample : samples) {
+    if (!is_used(sample)) continue;
+    if (begin == nullptr) begin = &sample;
+    if (first == nullptr && far(sample, *begin)) first = &sample;
+    end = &sample;
+  }
+  for (const Sample& sample : samples)
+    if (is_used(sample) && far(sample, *end)) last = &sample;
+  if (first == nullptr || last == nullptr) return 0;
+  return std::max(0.0, 1e-6 * static_cast<double>(last->time_us - first->time_us));
+}
+
 }  // namespace
+
+void require_times_alike(const recording::Run& run, const AssumedTimeUnit& wheels,
+                         const AssumedTimeUnit& truth) {
+  constexpr double kSeveral = 3;
+  const AssumedTimeUnit& assumed = wheels.unit.empty() ? truth : wheels;
+  if (assumed.unit.empty()) return;
+  const double by_wheels = moving_s(run.odometry, [](const auto&) { return true; }),
+               by_truth = moving_s(run.truth, [](const recording::TruthSample&at) { return at.valid; });
+  if (!(by_wheels > 0 && by_truth > 0)) return;
+  if (by_wheels < kSeveral * by_truth && by_truth < kSeveral * by_wheels) return;
+  const bool of_wheels = &assumed == &wheels;
+  const std::string own = fmt::format("{:.3g}", of_wheels ? by_wheels : by_truth),
+                    other = fmt::format("{:.3g}", of_wheels ? by_truth : by_wheels);
+  throw Error(fmt::format("the times in '{}' have no unit, and with {} the drive lasts {} s, but {} s by the "
+                          "other file",
+                          assumed.file, assumed.unit, own, other),
+              ImportProblem::time_unit_doubtful, {assumed.file, assumed.unit, own, other});
+}
 
 void require_turning_wheels(const std::string& name, const recording::Run& run,
                             const truth::FloorFindings& floor) {

@@ -23,7 +23,7 @@ double step_of(const WheelSample& from, const WheelSample& to) {
   return std::max(std::abs(to.left - from.left), std::abs(to.right - from.right));
 }
 
-/// A step that hardly any in a drive exceeds; a few jumps do not matter.
+/// The step than which only one in twenty is longer, so that a few jumps do not count.
 double long_step(const Samples& samples) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(step_of(samples[i - 1], samples[i]));
@@ -81,10 +81,11 @@ void join_restarts(WheelTrack& track, const std::string& name) {
                                 name, time_s, 1e-9 * gap_ns),
                     CounterProblem::begins_again, {name, time_s});
       const WheelSample& joined = samples[i - 1];
-      const WheelSample& next = samples[std::min(i + 1, samples.size() - 1)];
       const auto pace = [&](double WheelSample::*wheel) {
+        const bool has_next = i + 1 < samples.size();
         const double past = i > 1 ? joined.*wheel - samples[i - 2].*wheel : 0;
-        const double mean = (past + next.*wheel - counted.*wheel) / 2;
+        const double next = has_next ? samples[i + 1].*wheel - counted.*wheel : 0;
+        const double mean = (past + next) / std::max(1, (i > 1 ? 1 : 0) + (has_next ? 1 : 0));
         const bool whole = past == std::round(past) && counted.*wheel == std::round(counted.*wheel);
         return whole ? std::round(mean) : mean;  // counts stay whole: their unit is told by that
       };

@@ -164,8 +164,10 @@ WheelUnit unit_of(Quantity quantity) {
 
 [[noreturn]] void refuse(const tables::Table& table, const std::vector<std::string>& names,
                          const std::string& why) {
+  // Of columns of which only some were stated the others have no names here.
+  const bool partly = std::ranges::count(names, "") > 0 && !table.names().empty();
   std::vector<std::string> shown;
-  for (const std::string& name : names)
+  for (const std::string& name : partly ? table.names() : names)
     if (shown.size() < 40) shown.push_back(tables::cut_cell(name));
   throw UnclearChoice(fmt::format("{}: {}; the columns are {}", table.rows().file(), why, listed(shown)),
                       shown, WheelProblem::columns_unclear);

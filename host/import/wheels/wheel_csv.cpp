@@ -235,9 +235,10 @@ class WheelRows {
     mend_times_of(first, "the wheels", remarks);
     for (const auto& [at, line] : falls_)
       if (first[at].time_ns < first[at - 1].time_ns)
-        throw Error(
-            fmt::format("{}, line {}: the time is before that of the row above: sort the rows", name_, line),
-            WheelTableProblem::times_fall, {name_, std::to_string(line)});
+        throw Error(fmt::format("{}, line {}: the time falls from {:.3f} s to {:.3f} s", name_, line,
+                                1e-9 * static_cast<double>(first[at - 1].time_ns),
+                                1e-9 * static_cast<double>(first[at].time_ns)),
+                    WheelTableProblem::times_fall, {name_, std::to_string(line)});
     for (Wheels& pair : pairs_)
       for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = first[i].time_ns;
     const std::size_t rows = first.size();
@@ -304,6 +305,11 @@ class WheelRows {
           {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out",
            WheelTableProblem::rows_incomplete,
            {name_, std::to_string(incomplete_)}});
+    if (const auto range_s = times_.started_again_s())
+      remarks.push_back({fmt::format("{}: the times start again after {:.6g} s; they were made continuous",
+                                     name_, *range_s),
+                         WheelTableProblem::times_continued,
+                         {name_, fmt::format("{:.6g}", *range_s)}});
   }
 
   void refuse_lost_rows(std::span<const WheelSample> samples) const {

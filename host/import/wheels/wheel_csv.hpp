@@ -14,6 +14,7 @@ namespace astro::importing {
 ///                                    percentage of the travel that is missing
 ///   time_unit_unknown                the file and the column
 ///   rows_incomplete, times_repeated  the file and how many rows
+///   times_continued                  the file, and after how many seconds its times start again
 ///   times_spread                     the file, how many rows each time has, and how many seconds the times are apart
 ///   times_too_coarse                 the file, and the percentage of the rows that repeat a time with other values
 enum class WheelTableProblem {
@@ -27,6 +28,7 @@ enum class WheelTableProblem {
   rows_lost,
   rows_incomplete,
   times_repeated,
+  times_continued,
   times_spread,
   times_too_coarse
 };

@@ -36,13 +36,15 @@ enum class RotationKind : std::uint8_t {
   heading,  // one angle about z
 };
 
-/// What looks odd in a recording. The value is the number of rows, the unit of time, the greatest difference in milliseconds, or
-/// for times_spread how many rows each time has and how many seconds the times are apart.
+/// What looks odd in a recording. The value is the number of rows, the unit of time, the greatest difference in milliseconds, the
+/// seconds after which the times start again, or for times_spread how many rows each time has and how many seconds the times are apart.
 enum class TrackRemark {
   length_unit_assumed,
   heading_unit_assumed,
+  headings_clockwise,
   time_unit_assumed,
   times_repeated,
+  times_continued,
   times_spread,
   times_disagree
 };

@@ -1,9 +1,12 @@
 #include "host/truth/files/plain_csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <complex>
 #include <iterator>
 #include <numbers>
 #include <set>
@@ -150,10 +153,13 @@ void take_unit(const tables::Rows& rows, Slot slot, int column, const std::strin
   if (!fits)
     rows.refuse(column + 1, "the unit " + tables::shown_cell(unit) + " does not fit the column",
                 TrackProblem::unit_of_other_quantity, {tables::cut_cell(unit)});
-  if (!known.empty() && known != unit)
+  const auto factor = [&](const std::string& one) {
+    return angle ? tables::radians_per(one) : tables::metres_per(one);
+  };
+  if (!known.empty() && factor(known) != factor(unit))
     rows.refuse(column + 1,
-                "the positions have different units, " + tables::shown_cell(known) + " and " +
-                    tables::shown_cell(unit),
+                std::string(angle ? "the angles" : "the positions") + " have different units, " +
+                    tables::shown_cell(known) + " and " + tables::shown_cell(unit),
                 TrackProblem::units_differ, {tables::cut_cell(known), tables::cut_cell(unit)});
   known = unit;
 }
@@ -245,7 +251,7 @@ std::vector<BodyName> tags_in(Table& table, int column) {
     const std::string_view tag = table.cell(static_cast<std::size_t>(column));
     if (tag.empty() || known.contains(tag)) continue;
     known.emplace(tag);
-    tags.push_back({tables::cut_cell(tag), ""});
+    tags.push_back({std::string(tag), ""});
   }
   table.rewind();
   if (tags.size() < 2) tags.clear();
@@ -315,74 +321,115 @@ void describe_plain(const PlainHeader& header, TrackFacts& facts) {
 }
 
 /// How well the direction of motion follows the heading if its unit has so many radians: 1 if they differ by a constant, 0 if
-/// they have nothing in common. A robot may drive backwards, and the table may be a mirror image.
+/// they have nothing in common.
 class DirectionMatch {
  public:
   explicit DirectionMatch(double radians) : radians_(radians) {}
 
   void take(double direction_rad, double heading) {
-    for (const int sense : {0, 1}) {
-      const double apart = 2 * (direction_rad + (sense == 0 ? -1 : 1) * radians_ * heading);
-      cos_[sense] += std::cos(apart);
-      sin_[sense] += std::sin(apart);
+    for (const std::size_t sense : {0U, 1U}) {
+      const double apart = direction_rad + (sense == 0 ? -1 : 1) * radians_ * heading;
+      forward_[sense] += std::polar(1.0, apart);
+      either_way_[sense] += std::polar(1.0, 2 * apart);
     }
     ++count_;
   }
+  /// Of a robot that may drive backwards, in a table that may be a mirror image.
   double share() const {
-    return count_ == 0 ? 0 : std::max(std::hypot(cos_[0], sin_[0]), std::hypot(cos_[1], sin_[1])) / count_;
+    return std::max(std::abs(either_way_[0]), std::abs(either_way_[1])) / std::max(1, count_);
+  }
+  /// Of one that drives one way. On a square, driven either way, both senses fit.
+  double forward_share(bool clockwise) const {
+    return std::abs(forward_[clockwise ? 1 : 0]) / std::max(1, count_);
   }
 
  private:
-  double radians_, cos_[2] = {0, 0}, sin_[2] = {0, 0};
+  double radians_;
+  std::complex<double> forward_[2], either_way_[2];  // by sense: counter-clockwise, clockwise
   int count_ = 0;
 };
 
-/// Whether angles without a unit are degrees: the directions in which the body moves show it, or the size of the angles.
-bool are_degrees(Table& table, const PoseColumns& columns, Slot heading) {
-  const auto number = [&](Slot slot) {
-    return tables::cell_number(table.cell(static_cast<std::size_t>(columns[slot])), table.style());
-  };
-  double least_x = HUGE_VAL, most_x = -HUGE_VAL, most_angle = 0;
-  table.rewind();
-  while (table.next()) {
-    const auto x = number(Slot::x), angle = number(heading);
-    if (x) least_x = std::min(least_x, *x), most_x = std::max(most_x, *x);
-    if (angle) most_angle = std::max(most_angle, std::abs(*angle));
-  }
-  constexpr double kShareOfExtent = 0.02;
-  const double long_enough = kShareOfExtent * (most_x - least_x);
-  DirectionMatch in_radians(1), in_degrees(*tables::radians_per("deg"));
-  std::optional<std::array<double, 2>> from;
-  table.rewind();
-  while (table.next()) {
-    const auto x = number(Slot::x), y = number(Slot::y), angle = number(heading);
-    if (!x || !y || !angle) continue;
-    if (from) {
-      const double dx = *x - (*from)[0], dy = *y - (*from)[1];
-      if (std::hypot(dx, dy) < long_enough || std::hypot(dx, dy) == 0) continue;
-      in_radians.take(std::atan2(dy, dx), *angle);
-      in_degrees.take(std::atan2(dy, dx), *angle);
+/// How well the headings of a table match the directions of its motion, by their unit.
+struct HeadingMatch {
+  DirectionMatch in_radians{1}, in_degrees{*tables::radians_per("deg")};
+  double most_angle = 0;
+
+  HeadingMatch(Table& table, const PoseColumns& columns, Slot heading) {
+    const double long_enough = kShareOfExtent * extent(table, columns, heading);
+    std::optional<std::array<double, 2>> from;
+    table.rewind();
+    while (table.next()) {
+      const auto x = number(table, columns[Slot::x]), y = number(table, columns[Slot::y]),
+                 angle = number(table, columns[heading]);
+      if (!x || !y || !angle) continue;
+      if (from) {
+        const double dx = *x - (*from)[0], dy = *y - (*from)[1];
+        if (std::hypot(dx, dy) < long_enough || std::hypot(dx, dy) == 0) continue;
+        in_radians.take(std::atan2(dy, dx), *angle);
+        in_degrees.take(std::atan2(dy, dx), *angle);
+      }
+      from = {*x, *y};
     }
-    from = {*x, *y};
+    table.rewind();
   }
-  table.rewind();
-  constexpr double kClear = 0.05;
-  if (std::abs(in_degrees.share() - in_radians.share()) > kClear)
-    return in_degrees.share() > in_radians.share();
-  return most_angle > 2.1 * std::numbers::pi;  // more than a turn, on a straight way
+
+  bool are_degrees() const {
+    constexpr double kClear = 0.05;
+    if (std::abs(in_degrees.share() - in_radians.share()) > kClear)
+      return in_degrees.share() > in_radians.share();
+    return most_angle > 2.1 * std::numbers::pi;  // more than a turn, on a straight way
+  }
+
+ private:
+  static constexpr double kShareOfExtent = 0.02;
+
+  static std::optional<double> number(const Table& table, int column) {
+    return tables::cell_number(table.cell(static_cast<std::size_t>(column)), table.style());
+  }
+
+  /// The longer side of the area in which the body moves.
+  double extent(Table& table, const PoseColumns& columns, Slot heading) {
+    std::array<double, 2> least{HUGE_VAL, HUGE_VAL}, most{-HUGE_VAL, -HUGE_VAL};
+    table.rewind();
+    while (table.next()) {
+      for (const std::size_t axis : {0U, 1U}) {
+        const auto value = number(table, columns[axis == 0 ? Slot::x : Slot::y]);
+        if (value) least[axis] = std::min(least[axis], *value), most[axis] = std::max(most[axis], *value);
+      }
+      if (const auto angle = number(table, columns[heading]))
+        most_angle = std::max(most_angle, std::abs(*angle));
+    }
+    return std::max(most[0] - least[0], most[1] - least[1]);
+  }
+};
+
+/// A compass counts clockwise, in axes in which the positions turn the other way.
+void settle_sense(const HeadingMatch& match, PlainHeader& header, TrackFacts& facts) {
+  constexpr double kClearlyBetter = 0.3;
+  const bool degrees = header.columns.radians != 1;
+  const DirectionMatch& direction = degrees ? match.in_degrees : match.in_radians;
+  if (header.columns.rotation != RotationKind::heading ||
+      direction.forward_share(true) < direction.forward_share(false) + kClearlyBetter)
+    return;
+  header.columns.radians = -header.columns.radians;
+  facts.remarks.push_back(
+      {"the headings count clockwise, as the directions of motion show; they were turned round",
+       TrackRemark::headings_clockwise});
 }
 
 void settle_angles(Table& table, PlainHeader& header, TrackFacts& facts) {
   PoseColumns& columns = header.columns;
   if (columns.rotation != RotationKind::heading && columns.rotation != RotationKind::euler) return;
-  if (!header.angle_unit.empty()) return;
-  const bool degrees =
-      are_degrees(table, columns, columns.rotation == RotationKind::heading ? Slot::heading : Slot::rz);
-  columns.radians = degrees ? *tables::radians_per("deg") : 1;
-  const std::string unit = degrees ? "degrees" : "radians";
-  facts.remarks.push_back({"the unit of the heading is not stated: " + unit + " are assumed",
-                           TrackRemark::heading_unit_assumed,
-                           {unit}});
+  const HeadingMatch match(table, columns,
+                           columns.rotation == RotationKind::heading ? Slot::heading : Slot::rz);
+  if (header.angle_unit.empty()) {
+    columns.radians = match.are_degrees() ? *tables::radians_per("deg") : 1;
+    const std::string unit = columns.radians != 1 ? "degrees" : "radians";
+    facts.remarks.push_back({"the unit of the heading is not stated: " + unit + " are assumed",
+                             TrackRemark::heading_unit_assumed,
+                             {unit}});
+  }
+  settle_sense(match, header, facts);
 }
 
 /// Throws astro::Error if the table does not show in which unit its times are.
@@ -447,6 +494,11 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
     sample.time_ns = *time_ns;
     builder.add_stamped(sample, table.rows());
   }
+  if (const auto range_s = times.started_again_s())
+    track.facts.remarks.push_back(
+        {fmt::format("the times start again after {:.6g} s; they were made continuous", *range_s),
+         TrackRemark::times_continued,
+         {fmt::format("{:.6g}", *range_s)}});
   builder.finish(plain.file);
   return track;
 }

@@ -17,7 +17,10 @@ namespace {
 constexpr std::size_t kFreeSampleBytes = std::size_t{24} << 20;
 constexpr double kSampleBytesPerByte = 1.85;
 
-constexpr const char* kTimeFalls = "the time is before that of the row above: sort the rows";
+std::string fall_text(const TrackedPose& before, const TrackedPose& sample) {
+  return fmt::format("the time falls from {:.3f} s to {:.3f} s", 1e-9 * static_cast<double>(before.time_ns),
+                     1e-9 * static_cast<double>(sample.time_ns));
+}
 
 bool is_text(std::size_t slot) { return slot < kTextSlots; }
 
@@ -117,7 +120,7 @@ void TrackBuilder::push(const TrackedPose& sample, const tables::Rows& rows) {
 
 void TrackBuilder::add(const TrackedPose& sample, const tables::Rows& rows) {
   if (!track_.samples.empty() && sample.time_ns < track_.samples.back().time_ns)
-    rows.refuse(kTimeFalls, TrackProblem::time_not_increasing);
+    rows.refuse(fall_text(track_.samples.back(), sample), TrackProblem::time_not_increasing);
   push(sample, rows);
 }
 
@@ -134,8 +137,8 @@ void TrackBuilder::finish(std::string_view file) {
   mend_times_of(samples, "the ground truth", track_.facts.remarks);
   for (const auto& [at, line] : falls_)
     if (samples[at].time_ns < samples[at - 1].time_ns)
-      throw Error(fmt::format("{}, line {}: {}", file, line, kTimeFalls), TrackProblem::time_not_increasing,
-                  {std::string(file), std::to_string(line)});
+      throw Error(fmt::format("{}, line {}: {}", file, line, fall_text(samples[at - 1], samples[at])),
+                  TrackProblem::time_not_increasing, {std::string(file), std::to_string(line)});
   const auto repeated = std::ranges::unique(samples, {}, &TrackedPose::time_ns);
   if (repeated.empty()) return;
   const std::string rows = std::to_string(repeated.size());

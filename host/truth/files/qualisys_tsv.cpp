@@ -21,8 +21,8 @@ namespace {
 using Cells = std::vector<std::string_view>;
 
 constexpr double kMillimetre = 1e-3;
-constexpr std::size_t kCellsOfBody = 16,
-                      kCellsOfMarker = 3;  // X Y Z roll pitch yaw residual and nine of the matrix
+// A body has X, Y, Z, roll, pitch, yaw, a residual and the nine cells of a matrix; a marker has X, Y and Z.
+constexpr std::size_t kCellsOfBody = 16, kCellsOfMarker = 3;
 
 struct QualisysHeader {
   double rate_hz = 0;

@@ -48,6 +48,9 @@ TEST(Table, FindsTheSeparatorByWhatTheCellsAreThen) {
 
 TEST(Table, FindsTheNamesAboveTheRows) {
   EXPECT_THAT(names_of("sep=;\nt;x\n1;2\n"), ElementsAre("t", "x"));
+  EXPECT_THAT(names_of("sep=\t\nt\tx\n1\t2\n"), ElementsAre("t", "x"));
+  EXPECT_EQ(Table("A title\n1,2\n3,4\n", "t.csv").line_of_names(), 0);
+  EXPECT_THAT(rows_of("t,x,note\n1,2,\"a \"\"b\"\", c\"\n").front(), ElementsAre("1", "2", "a \"\"b\"\", c"));
   EXPECT_THAT(names_of("Log of robot 5\n\nfirmware 1.2\nt,x\n1,2\n3,4\n"), ElementsAre("t", "x"));
   EXPECT_THAT(names_of("# t x\n1 2\n3 4\n"), ElementsAre("t", "x"));
   EXPECT_THAT(names_of("# written by a script\n# t,x\n1,2\n3,4\n"), ElementsAre("t", "x"));
@@ -214,6 +217,15 @@ TEST(Times, SecondsAndTheirFractionMayStandInTwoColumns) {
   EXPECT_THAT(times_in("time;ms;x\n12:00:05;250;1\n"), ElementsAre(43'205'250'000'000));
 }
 
+TEST(Times, OfAMicrocontrollerGoOnWhereTheyStartAgain) {
+  EXPECT_THAT(times_in("ms,x\n65500,1\n65520,2\n4,3\n24,4\n"),
+              ElementsAre(65'500'000'000, 65'520'000'000, 65'540'000'000, 65'560'000'000));
+  EXPECT_THAT(times_in("us,x\n4294950000,1\n4294960000,2\n2704,3\n"),
+              ElementsAre(4'294'950'000'000, 4'294'960'000'000, 4'294'970'000'000));
+  EXPECT_THAT(times_in("ms,x\n40500,1\n40520,2\n0,3\n"), ElementsAre(40'500'000'000, 40'520'000'000, 0))
+      << "a controller that was reset";
+}
+
 TEST(Times, TwoWholeTimesAreNoSecondsAndTheirFraction) {
   EXPECT_THAT(times_in("time_s,time_ms,x\n5.25,5250,1\n6.25,6250,1\n"),
               ElementsAre(5'250'000'000, 6'250'000'000));
@@ -258,6 +270,7 @@ TEST(ColumnName, AnyStyleHasItsWordsAndItsUnit) {
        {"encoderLeft [ticks]", "encoder_left_ticks", "Encoder Left (Ticks)", "encoder.left.ticks"})
     EXPECT_EQ(in_words(text), "encoder left [ticks]") << text;
   EXPECT_EQ(in_words("wl_rad_s"), "wl [rad_s]");
+  EXPECT_EQ(column_name("x [ m ]").unit->quantity, Quantity::length);
   EXPECT_EQ(in_words("timeMs"), "time [ms]");
   EXPECT_EQ(in_words("FL"), "fl []");
   EXPECT_EQ(in_words("HTTPTime"), "http time []");
@@ -274,6 +287,8 @@ TEST(Units, HaveTheirSpellings) {
     EXPECT_TRUE(same(text, "rad/s")) << text;
   for (const char* text : {"m_s", "mps", "m per second"}) EXPECT_TRUE(same(text, "m/s")) << text;
   EXPECT_DOUBLE_EQ(unit_named("rpm")->to_si * 60, unit_named("turns")->to_si);
+  EXPECT_TRUE(same("km_h", "km/h"));
+  EXPECT_TRUE(same("Millimetre", "mm") && same("decimetre", "dm"));
   EXPECT_FALSE(unit_named("furlong"));
 }
 
@@ -286,6 +301,10 @@ TEST(StatedColumns, AreAListOrSayWhatSomeNamesMean) {
               ElementsAre("time_ms", "", "left_counts", ""));
   EXPECT_THAT(told_by([&] { names_with("stamp=time_ms,enc=left_counts", table); }),
               Tells(StatedColumnsProblem::no_such_name, "t.csv", "enc", "stamp", "encA", "encB", "other"));
+  EXPECT_THAT(names_with("STAMP=time_ms,enca=left_counts", table),
+              ElementsAre("time_ms", "left_counts", "", ""));
+  EXPECT_THAT(told_by([&] { names_with("stamp=time_ms,encA", table); }),
+              Tells(StatedColumnsProblem::no_meaning, "t.csv", "encA"));
   EXPECT_THAT(told_by([&] { names_with("a,b,c,d,e", table); }),
               Tells(StatedColumnsProblem::too_many, "t.csv", "4"));
 }

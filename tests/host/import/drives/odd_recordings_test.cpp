@@ -407,6 +407,41 @@ std::vector<OddKind> odd_kinds() {
                               Robot::counts(at.left_m), Robot::counts(at.right_m));
          });
        })},
+      {"hundredths of a second that are not called so",
+       wheels([=](auto& run) {
+         return counts_at(every_nth(run, 2), "time", [](double t) { return std::round(100 * t); });
+       }),
+       {Doubt::time_unit_doubtful}},
+      {"numbers of frames as times of the truth",
+       truth([](auto& run) {
+         int frame = 0;
+         return truth_in(run, "t,x_m,y_m,theta_rad\n", [&](auto& at) {
+           return fmt::format("{},{:.6f},{:.6f},{:.6f}", frame++, at.x_m, at.y_m, at.theta_rad);
+         });
+       }),
+       {Doubt::time_unit_doubtful}},
+      {"milliseconds of 16 bits", wheels([=](auto& run) {
+         return counts_at(run, "time_ms",
+                          [](double t) { return std::fmod(std::round(1000 * (60 + t)), 65'536); });
+       })},
+      {"microseconds of 32 bits", wheels([=](auto& run) {
+         return counts_at(run, "micros",
+                          [](double t) { return std::fmod(std::round(1e6 * (4'290 + t)), 4'294'967'296); });
+       })},
+      {"thousands marked by points beside decimal commas", wheels([](auto& run) {
+         return rows("time_s;left_counts;right_counts\n", run.wheels, [](auto& at) {
+           const auto grouped = [](double count) {
+             std::string digits = fmt::format("{:.0f}", count);
+             for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
+               digits.insert(static_cast<std::size_t>(place), 1, '.');
+             return digits;
+           };
+           std::string time = fmt::format("{:.3f}", at.time_s);
+           std::replace(time.begin(), time.end(), '.', ',');
+           return fmt::format("{};{};{}", time, grouped(100'000 + Robot::counts(at.left_m)),
+                              grouped(100'000 + Robot::counts(at.right_m)));
+         });
+       })},
       {"angles in degrees", wheels([=](auto& run) {
          return rows("time_s,left_deg,right_deg\n", run.wheels, [=](auto& at) {
            return fmt::format("{:.6f},{:.6f},{:.6f}", at.time_s, kDegree * Robot::radians(at.left_m),
@@ -587,6 +622,19 @@ std::vector<OddKind> odd_kinds() {
                               at.theta_rad);
          });
        })},
+      {"truth of headings clockwise from north", truth([=](auto& run) {
+         return truth_in(run, "time_s,x_m,y_m,heading_deg\n", [=](auto& at) {
+           return fmt::format(
+               "{:.6f},{:.6f},{:.6f},{:.4f}", at.time_s, at.x_m, at.y_m,
+               kDegree * std::remainder(std::numbers::pi / 2 - at.theta_rad, 2 * std::numbers::pi));
+         });
+       })},
+      {"truth with a header only",
+       truth([](auto&) { return std::string("time_s,x_m,y_m,theta_rad\n"); }),
+       {Doubt::no_poses}},
+      {"truth of one pose",
+       truth([](auto&) { return std::string("time_s,x_m,y_m,theta_rad\n0,0,0,0\n"); }),
+       {Doubt::no_poses}},
       {"truth whose columns are stated",
        [](const Robot& robot) {
          Recording recording = robot.with([](const Trajectory& run) { return counts_in(run); },

@@ -139,6 +139,12 @@ TEST(WheelCsv, AResetWhileDrivingIsJoinedAtTheWheelsPace) {
   }
 }
 
+TEST(WheelCsv, AResetBeforeTheLastSampleIsJoinedAtThePaceBeforeIt) {
+  const WheelTrack track =
+      wheels("time_s,left_counts,right_counts\n" + paced(40'000, 900, 0, 40) + paced(0, 0, 40, 1));
+  EXPECT_EQ(track.samples.back().left - track.samples.front().left, 60 * 40);
+}
+
 TEST(WheelCsv, CountsStayWholeWhereAResetIsJoined) {
   // The step over the reset is the mean of 10 before it and 11 behind it.
   std::string rows = "time_s,left_counts,right_counts\n";
@@ -255,6 +261,21 @@ TEST(WheelCsv, WhatANameDoesNotSayIsSaidOrAskedFor) {
               ElementsAre(WheelSample{0, 2, 1}, WheelSample{20'000'000, 5, 3}));
   EXPECT_THAT(why("time,left_counts,right_counts\n0,1,2\n0,3,5\n"),
               Tells(WheelTableProblem::time_unit_unknown, "w.csv", "1"));
+}
+
+TEST(WheelCsv, CumulativeTravelIsTakenBeforeTravelPerInterval) {
+  EXPECT_EQ(wheels("time_s,delta_left_rad,delta_right_rad,left_m,right_m\n0,9,9,1,2\n1,9,9,3,4\n").unit,
+            WheelUnit::radians);
+  EXPECT_EQ(wheels("time_s,delta_left_ticks,delta_right_ticks,left_rad,right_rad\n0,9,9,1,2\n1,9,9,3,4\n")
+                .samples.back()
+                .left,
+            18)
+      << "counts before angles";
+}
+
+TEST(WheelCsv, TheColumnsOfTheTableAreListedWhereSomeWereStated) {
+  EXPECT_THAT(why("stamp,encA,encB\n0,1,2\n20,3,5\n", {.columns = "stamp=time_ms,encA=left_counts"}),
+              Tells(WheelProblem::columns_unclear, "stamp", "encA", "encB"));
 }
 
 TEST(WheelCsv, TravelIsTakenBeforeSpeedsAndCountsBeforeAngles) {

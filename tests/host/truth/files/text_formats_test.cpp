@@ -1,4 +1,5 @@
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
@@ -298,6 +299,38 @@ TEST(PlainCsv, TheDirectionOfMotionShowsTheUnitOfTheHeading) {
       EXPECT_THAT(track.facts.remarks, testing::ElementsAre(Tells(TrackRemark::heading_unit_assumed,
                                                                   unit == 1 ? "radians" : "degrees")));
     }
+}
+
+TEST(PlainCsv, HeadingsOfACompassAreTurnedRound) {
+  for (const int sense : {1, -1}) {
+    std::string text = "time_s,x_m,y_m,heading_deg\n";
+    for (int i = 0; i < 300; ++i) {
+      const double turn = 0.02 * i;  // a circle, driven to the left
+      text += fmt::format("{},{:.4f},{:.4f},{:.3f}\n", 0.05 * i, std::sin(turn), 1 - std::cos(turn),
+                          sense > 0 ? 180 / std::numbers::pi * turn : 90 - 180 / std::numbers::pi * turn);
+    }
+    const BodyTrack track = read_track(text, "x.csv");
+    EXPECT_NEAR(std::remainder(turn_about_z(track.samples[50].pose) - turn_about_z(track.samples[0].pose),
+                               2 * std::numbers::pi),
+                1, 1e-3)
+        << sense;
+    EXPECT_EQ(
+        testing::Matches(testing::Contains(Tells(TrackRemark::headings_clockwise)))(track.facts.remarks),
+        sense < 0);
+  }
+}
+
+TEST(PlainCsv, UnitsOfTwoSpellingsAreOne) {
+  EXPECT_EQ(read_track("time_s,x_m,y [meters]\n0,1,2\n", "x.csv").samples[0].pose.y_m, 2);
+  EXPECT_EQ(refusal("time_s,x_m,y_m,roll_deg,pitch_rad,yaw_rad\n0,1,2,0,0,0\n").kind,
+            Kind(TrackProblem::units_differ));
+}
+
+TEST(PlainCsv, TagsThatDifferOnlyAtTheirEndAreToldApart) {
+  const std::string tag(50, 'a');
+  const std::string text = "time_s,tag_id,x_m,y_m\n0," + tag + "1,1,0\n0," + tag + "2,2,0\n1," + tag +
+                           "1,3,0\n1," + tag + "2,4,0\n";
+  EXPECT_EQ(read_track(text, "x.csv", tag + "2").samples.at(1).pose.x_m, 4);
 }
 
 TEST(PlainCsv, RowsOfSeveralTagsAreBodies) {
