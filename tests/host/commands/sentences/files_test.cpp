@@ -74,7 +74,9 @@ TEST_F(FileSentences, TellWhatIsWrongWithATableOfWheels) {
        "comma.csv, line 2: the row has 6 cells and the header 3: are its numbers written with decimal "
        "commas? Save the table with semicolons or tabs between the cells"},
       {"a time before that above", files("back.csv", "t.tum"),
-       "back.csv, line 3: the time is before that of the row above: sort the rows"},
+       "back.csv, line 3: the time falls from 2.000 s to 1.000 s: cut the table there if its clock started "
+       "again, or sort "
+       "the rows if they are out of order"},
       {"one row", files("short.csv", "t.tum"),
        "short.csv, line 2: the table ends with fewer than two rows of wheels"},
       {"an empty file", files("empty.csv", "t.tum"), "'empty.csv' is empty"},
@@ -87,7 +89,9 @@ TEST_F(FileSentences, TellWhatIsWrongWithATableOfWheels) {
        "counters themselves, of which a lost row takes nothing away"},
       {"a counter that starts again", files("restart.csv", "t.tum"),
        "restart.csv: the left wheel jumps from 51900 to 0 at 2.000000 s, which is neither motion nor the end "
-       "of a counter, as where a counter starts again; cut it there"},
+       "of a counter whose range is known: if a counter starts again there at the end of its range, give it "
+       "with "
+       "--counter-range, otherwise cut the recording there"},
       {"no file", files("none.csv", "t.tum"), "none.csv does not exist: check the path"},
   });
 }
@@ -193,7 +197,9 @@ TEST_F(FileSentences, TellWhatIsWrongWithAFileOfATracker) {
       {"a word for a number", files("w.csv", "word.csv"),
        "word.csv, line 3, column 2: 'abc' is not a number"},
       {"a time before that above", files("w.csv", "back.csv"),
-       "back.csv, line 3: the time is before that of the row above: sort the rows"},
+       "back.csv, line 3: the time falls from 2.000 s to 1.000 s: cut the table there if its clock started "
+       "again, or sort "
+       "the rows if they are out of order"},
       {"packed and cut off", files("w.csv", "cut.csv.gz"),
        "'cut.csv.gz' is packed with gzip and cut off at byte 40; use the original"},
       {"two units", files("w.csv", "units.csv"),
