@@ -112,7 +112,7 @@ void Table::find_separator() {
     separator_ = *stated;
     best = fit_of(separator_, text_, file_);
   } else {
-    // In this order, because of two that explain the lines equally well the rarer one in other roles is meant.
+    // If two explain the lines equally well, the first is taken: tabs are in no cell, blanks and commas may be in many.
     for (const char separator : {'\t', ';', '|', ',', ' '})
       if (const Fit fit = fit_of(separator, text_, file_); fit.share > best.share) {
         best = fit;

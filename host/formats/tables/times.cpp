@@ -175,7 +175,7 @@ std::string_view unit_text(int power) {
 
 std::optional<int> power_found(std::span<const double> times, double span) {
   if (times.empty()) return std::nullopt;
-  // A time since 1970 shows its unit: it is one between the years 2001 and 2600 in no other.
+  // The size of a time since 1970 shows its unit: in only one unit it is between the years 2001 and 2600.
   for (const int power : kPowers)
     if (const double seconds = times.front() * std::pow(10, power - 9); seconds > 1e9 && seconds < 2e10)
       return power;
