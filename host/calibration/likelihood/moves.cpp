@@ -66,8 +66,14 @@ Vector3 turned(const Vector3& v, double c, double s) {
   return {c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]};
 }
 
+/// What the wheels travel in a step.
+struct Travel {
+  double right_m, left_m;
+};
+
+/// `steady`: the travel without the rounding of the counts, for the derivative by e.
 Move move_between(const Moment& from, const WheelState& was, const Moment& to, const WheelState& is,
-                  const Unknowns& u, double kappa0) {
+                  const Travel& steady, const Unknowns& u, double kappa0) {
   const double left_m = is.left_m - was.left_m, right_m = is.right_m - was.right_m;
   const double by_left_m = u[kCLeft] * left_m, by_right_m = u[kCRight] * right_m;
   const double centre_m = (by_left_m + by_right_m) / 2;
@@ -94,14 +100,38 @@ Move move_between(const Moment& from, const WheelState& was, const Moment& to, c
     return sum(u[kCLeft] * wheels.left_mps, by_left, u[kCRight] * wheels.right_mps, by_right);
   };
   const Vector3 at_start = velocity(was), at_end = velocity(is);
-  move.by = {scaled(right_m, by_right),
-             scaled(left_m, by_left),
-             scaled(turn.by_b, by_turn),
-             scaled(turn.by_e, by_turn),
-             sum(to.by_skew_s, at_end, -from.by_skew_s, at_start),
-             sum(1, at_end, -1, at_start)};
+  move.by = {
+      scaled(right_m, by_right),
+      scaled(left_m, by_left),
+      scaled(turn.by_b, by_turn),
+      scaled(turn_of(u[kCRight] * steady.right_m, u[kCLeft] * steady.left_m, u[kB], u[kE], kappa0).by_e,
+             by_turn),
+      sum(to.by_skew_s, at_end, -from.by_skew_s, at_start),
+      sum(1, at_end, -1, at_start)};
   return move;
 }
+
+/// Travels at the mean speed from a little before a step to a little after it. Counts are whole numbers, and what is rounded at the
+/// ends of a step is in its own travel twice over. On a line that makes most of a turn, so its product with the innovation would
+/// not vanish on average, and e would come out too large. The rounding further away is independent of that.
+class SteadyTravel {
+ public:
+  explicit SteadyTravel(std::span<const WheelSample> samples)
+      : before_(samples),
+        after_(samples),
+        margin_s_(2 * (samples.back().time_s - samples.front().time_s) /
+                  static_cast<double>(samples.size() - 1)) {}
+
+  Travel between(double from_s, double to_s) const {
+    const WheelState was = before_.at(from_s - margin_s_), is = after_.at(to_s + margin_s_);
+    const double part = (to_s - from_s) / (to_s - from_s + 2 * margin_s_);
+    return {part * (is.right_m - was.right_m), part * (is.left_m - was.left_m)};
+  }
+
+ private:
+  WheelPath before_, after_;  // two, because each remembers where it was asked last
+  double margin_s_;
+};
 
 void add(Leg& leg, const Move& move) {
   leg.move = leg.moved ? joined(leg.move, move) : move;
@@ -134,7 +164,7 @@ Move move_of(double nominal_right_m, double nominal_left_m, const WheelFactors& 
   WheelState end;
   end.right_m = nominal_right_m;
   end.left_m = nominal_left_m;
-  return move_between({}, {}, {}, end, unknowns, factors.kappa0);
+  return move_between({}, {}, {}, end, {nominal_right_m, nominal_left_m}, unknowns, factors.kappa0);
 }
 
 Moves::Moves(const PreparedRun& run, const Unknowns& unknowns, double kappa0,
@@ -157,6 +187,7 @@ void Moves::change(const Unknowns& unknowns) {
   const Unknowns& u = unknowns_;
   const PreparedRun& run = *run_;
   const WheelPath wheels(run.source->wheels);
+  const SteadyTravel steady(run.source->wheels);
   const auto moment = [&](double truth_time_s) {
     const double since_middle_s = truth_time_s - run.clock_middle_s;
     return Moment{truth_time_s + u[kClockOffset] + u[kSkew] * since_middle_s, since_middle_s};
@@ -175,7 +206,7 @@ void Moves::change(const Unknowns& unknowns) {
                       begin.by_skew_s + part * (end.by_skew_s - begin.by_skew_s)};
       const WheelState is = wheels.at(to.time_s);
       if (is.left_m != was.left_m || is.right_m != was.right_m)
-        add(leg, move_between(from, was, to, is, u, kappa0_));
+        add(leg, move_between(from, was, to, is, steady.between(from.time_s, to.time_s), u, kappa0_));
       from = to;
       was = is;
     }

@@ -481,6 +481,15 @@ TEST(MaximumLikelihood, LeavesEAtItsPriorWhereCirclesAloneCannotTellItFromTheWhe
   EXPECT_LT(std::sqrt(by.dot(found.covariance * by)), 0.2 * found.se.b_m);
 }
 
+TEST(MaximumLikelihood, DoesNotTakeTheRoundingOfCountsForAnE) {
+  DriveModel model = astro_drive();
+  model.metres_per_count = 8.07e-5;
+  const MlEstimate found = estimate_ml(squares(model, 40), model.loaded);
+  // With the rounding in the derivative by e it is 0.046, more than two standard errors.
+  EXPECT_LT(std::abs(found.factors.e), PriorOfE::kStandardDeviation / 2);
+  expect_true(found, model.actual);
+}
+
 TEST(MaximumLikelihood, TakesRunsWithAndWithoutHeadingsTogether) {
   DriveModel model = astro_drive();
   std::vector<Trajectory> runs = squares(model, 2);
