@@ -194,6 +194,16 @@ std::vector<HeldOutRun> HoldOut::judged() const {
   return runs;
 }
 
+/// Whether factors differ by less than those of real robots did from one day to another: E_d by 5e-4 (0.99892 and 0.99946, ten
+/// days apart), b / S and S by less, which more cannot be said of.
+bool are_within_drift(const WheelFactors& a, const WheelFactors& b) {
+  constexpr double kRatio = 5e-4, kSize = 3e-4, kCurvature = 0.02;  // of e: what it may be before any drive
+  const auto scale = [](const WheelFactors& f) { return (f.c_r + f.c_l) / 2; };
+  const auto changed = [](double from, double to) { return std::abs(to / from - 1); };
+  return changed(a.c_r / a.c_l, b.c_r / b.c_l) < kRatio && changed(scale(a), scale(b)) < kSize &&
+         changed(a.b_m / scale(a), b.b_m / scale(b)) < kSize && std::abs(a.e - b.e) < kCurvature;
+}
+
 }  // namespace
 
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
@@ -208,6 +218,10 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   for (const std::vector<std::size_t>& members : groups_of(prepared)) hold_out.hold_out(members, out);
   out.runs = hold_out.judged();
   out.judge();
+  if (out.verdict == Verdict::better && are_within_drift(all.factors, in_use)) {
+    out.within_drift = true;
+    out.verdict = Verdict::undecided;
+  }
   if (out.verdict == Verdict::better && may_be_worse_elsewhere(all, hold_out.change())) {
     out.verdict = Verdict::unknown;
     out.not_judged.push_back(

@@ -54,7 +54,7 @@ int CrossValidation::better_on() const {
 
 bool CrossValidation::little_to_gain() const {
   const double claimed = claimed_by(runs) + claimed_elsewhere;
-  return claimed > 0 && claimed <= chi_square_95(3);
+  return within_drift || (claimed > 0 && claimed <= chi_square_95(3));
 }
 
 void CrossValidation::judge() {

@@ -38,11 +38,16 @@ struct CrossValidation {
   /// says that the drives would have shown an improvement, or that hardly any is to be had.
   Verdict verdict = Verdict::unknown;
 
+  /// The factors found differ from those in use by less than a robot's do from one day to another, so that other drives of
+  /// another day need not be better.
+  bool within_drift = false;
+
   /// Runs that are more likely with the new factors.
   int better_on() const;
   HeldOutErrors in_use() const;
   HeldOutErrors found() const;
-  /// Whether the factors of all runs differ from those in use by no more than their errors; false if it is not known.
+  /// Whether the factors of all runs differ from those in use by no more than their errors, or than real robots do from day to
+  /// day; false if it is not known.
   bool little_to_gain() const;
 
   /// Sets the verdict.

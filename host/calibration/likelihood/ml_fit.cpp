@@ -25,6 +25,7 @@ constexpr double kLargestNoiseStep = 2;
 // fall expected in the round before.
 constexpr double kFarFall = 1e4, kNearFall = 100;
 constexpr double kLargestK_m = 1e-2;
+constexpr double kMostE = 0.3;  // ten times that of any robot
 constexpr int kMostPhases = 4;
 constexpr int kStretches = 4;  // one per side of a square, within which wind-up and unwinding cancel
 // If the innovations of all samples are not independent, this is the smallest spacing that is tried. Wind-up in a spin and
@@ -115,12 +116,27 @@ MlFit::MlFit(const PreparedRuns& prepared, const WheelFactors& loaded, const MlO
   }
 }
 
+/// Where counts are so coarse that e runs away with the first guess of the noise, the noise is found without e.
+void MlFit::hold_e_until_noise_is_known() {
+  for (Unknowns& u : state_.unknowns) u.head<kFactors>() << loaded_.c_r, loaded_.c_l, loaded_.b_m, 0;
+  state_.moves = moves_of(state_.unknowns);
+  state_.noise = least_noise_;
+  const bool fixed_e = std::exchange(fixed_.e, true);
+  choose_samples(0, 1);
+  find_spacing();
+  fixed_.e = fixed_e;
+  passed_ = false;
+}
+
 void MlFit::fit(const MlOptions& options, bool started) {
   state_.noise = least_noise_;
   // The first fit is least squares, because a sample that looks like an outlier to a first guess may be right.
   if (!started) {
     choose_samples(kRoughSpacing * loaded_.b_m, 1);
+    // Before the noise is known, its prior hardly holds e against the rounding of coarse counts.
+    const bool fixed_e = std::exchange(fixed_.e, true);
     maximise(kRoughly);
+    fixed_.e = fixed_e;
     if (!has_plausible_factors(4))
       start_from_loaded();  // the stated wheelbase may be half or twice the right one
   }
@@ -131,6 +147,7 @@ void MlFit::fit(const MlOptions& options, bool started) {
     maximise(kSettled);
   } else {
     find_spacing();
+    if (!fixed_.e && !(std::abs(state_.unknowns.front()[kE]) < kMostE)) hold_e_until_noise_is_known();
     fit_with_noise(kSettled);
     widen_uncertain_slip();
   }

@@ -91,6 +91,7 @@ class MlFit {
   /// Wheels between half and twice the nominal ones, and a wheelbase at most so many times the loaded one or less than it.
   bool has_plausible_factors(double most_b) const;
   void start_from_loaded();
+  void hold_e_until_noise_is_known();
   void require_plausible() const;
 
   const std::vector<PreparedRun>& runs_;

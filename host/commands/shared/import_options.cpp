@@ -184,7 +184,7 @@ constexpr Advice kImportAdvice[] = {
      ": name both with --wheels-topic TOPIC:LEFT,RIGHT, or with TOPIC,TOPIC if each wheel has its own"},
     {importing::WheelProblem::unit_unclear, ": name one of them with --wheels-unit"},
     {importing::WheelProblem::odometry_needs_sizes, ": give --wheelbase, or a file with --robot"},
-    {importing::ImportProblem::odometry_of_commands, ", and name them with --wheels-topic"},
+    {importing::ImportProblem::odometry_of_commands, ": name others with --wheels-topic"},
     {importing::ImportProblem::odometry_is_truth,
      ": name the tracker's poses with --truth-topic, or other wheels with --wheels-topic"},
     {importing::WheelProblem::poses_unclear,

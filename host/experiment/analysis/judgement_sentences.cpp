@@ -65,7 +65,10 @@ std::string judgement_sentence(const CrossValidation& judgement) {
     return fmt::format("Worse than what the robot carries: {}. Keep what it carries.{}", seen, rest);
   return fmt::format(
       "{}ot shown to be better than what the robot carries: {}. Keep what it carries.{}",
-      judgement.little_to_gain()
+      judgement.within_drift ? "There is little to gain, because what was found differs from what the robot "
+                               "carries by less than "
+                               "robots change from day to day: n"
+      : judgement.little_to_gain()
           ? "There is little to gain, because the robot carries what was found, within the error of "
             "these drives: n"
           : "N",

@@ -188,6 +188,18 @@ std::string RepeatedTimes::percent() const {
   return std::to_string(changed_ == 0 ? 0 : (100 * changed_rows_ + changed_ / 2) / changed_);
 }
 
+bool share_a_step(std::span<const std::int64_t> times_ns) {
+  constexpr double kNearlyAll = 0.9;
+  std::vector<std::int64_t> steps_ns;
+  for (std::size_t i = 1; i < times_ns.size(); ++i)
+    if (times_ns[i] != times_ns[i - 1]) steps_ns.push_back(times_ns[i] - times_ns[i - 1]);
+  if (steps_ns.empty()) return true;
+  const std::int64_t step_ns = median_of(std::vector(steps_ns));
+  const auto alike = std::ranges::count_if(
+      steps_ns, [&](std::int64_t one) { return std::abs(one - step_ns) <= step_ns / 100; });
+  return static_cast<double>(alike) >= kNearlyAll * static_cast<double>(steps_ns.size());
+}
+
 std::optional<SpreadTimes> spread_times(std::vector<std::int64_t> times_ns) {
   constexpr std::size_t kFewestTimes = 5;
   constexpr double kPart = 0.2, kNearlyAll = 0.9, kLeast_ns = 1000;

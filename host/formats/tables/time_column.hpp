@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,9 @@ class RepeatedTimes {
  private:
   std::size_t rows_ = 0, changed_ = 0, changed_rows_ = 0;
 };
+
+/// Whether times that rows share are those of a clock with too few digits: nearly all different ones are the same step apart.
+bool share_a_step(std::span<const std::int64_t> times_ns);
 
 /// Times of rows that were written with too few digits, as whole seconds with fifty rows in each, and are spread.
 struct SpreadTimes {

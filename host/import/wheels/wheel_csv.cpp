@@ -230,7 +230,11 @@ class WheelRows {
 
   /// Spreads rows that share a time if they are many; otherwise mends the times and leaves out rows that repeat one.
   void settle_times(std::vector<Remark>& remarks) {
-    if (falls_.empty() && !repeated_.are_few()) return spread_times(remarks);
+    if (falls_.empty() && !repeated_.are_few()) {
+      std::vector<std::int64_t> times_ns;
+      for (const WheelSample& sample : pairs_.front()) times_ns.push_back(sample.time_ns);
+      if (tables::share_a_step(times_ns)) return spread_times(std::move(times_ns), remarks);
+    }
     Wheels& first = pairs_.front();
     mend_times_of(first, "the wheels", remarks);
     for (const auto& [at, line] : falls_)
@@ -243,23 +247,25 @@ class WheelRows {
       for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = first[i].time_ns;
     const std::size_t rows = first.size();
     for (Wheels& pair : pairs_) leave_out_repeated(pair);
-    if (const std::size_t left_out = rows - first.size(); left_out > 0)
+    const std::size_t left_out = rows - first.size();
+    if (left_out > 0 && !repeated_.are_few()) refuse_coarse_times();
+    if (left_out > 0)
       remarks.push_back({name_ + " has " + std::to_string(left_out) +
                              " rows that repeat the time of the row above; they were left out",
                          WheelTableProblem::times_repeated,
                          {name_, std::to_string(left_out)}});
   }
 
-  void spread_times(std::vector<Remark>& remarks) {
-    std::vector<std::int64_t> times_ns;
-    for (const WheelSample& sample : pairs_.front()) times_ns.push_back(sample.time_ns);
+  [[noreturn]] void refuse_coarse_times() const {
+    throw Error(fmt::format("{}: {} % of the rows with new values repeat the time of the row above, and not "
+                            "evenly, so that their times are not known",
+                            name_, repeated_.percent()),
+                WheelTableProblem::times_too_coarse, {name_, repeated_.percent()});
+  }
+
+  void spread_times(std::vector<std::int64_t> times_ns, std::vector<Remark>& remarks) {
     const auto spread = tables::spread_times(std::move(times_ns));
-    if (!spread)
-      throw Error(
-          fmt::format("{}: {} % of the rows with new values repeat the time of the row above, and not "
-                      "evenly, so that their times are not known",
-                      name_, repeated_.percent()),
-          WheelTableProblem::times_too_coarse, {name_, repeated_.percent()});
+    if (!spread) refuse_coarse_times();
     for (Wheels& pair : pairs_)
       for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = spread->times_ns[i];
     const std::string rows = fmt::format("{:.3g}", spread->rows_in_step),

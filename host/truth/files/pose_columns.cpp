@@ -132,31 +132,38 @@ void TrackBuilder::add_stamped(const TrackedPose& sample, const tables::Rows& ro
 }
 
 void TrackBuilder::finish(std::string_view file) {
-  if (falls_.empty() && !repeated_.are_few()) return spread(file);
+  if (falls_.empty() && !repeated_.are_few()) {
+    std::vector<std::int64_t> times_ns;
+    for (const TrackedPose& sample : track_.samples) times_ns.push_back(sample.time_ns);
+    if (tables::share_a_step(times_ns)) return spread(std::move(times_ns), file);
+  }
   std::vector<TrackedPose>& samples = track_.samples;
   mend_times_of(samples, "the ground truth", track_.facts.remarks);
   for (const auto& [at, line] : falls_)
     if (samples[at].time_ns < samples[at - 1].time_ns)
       throw Error(fmt::format("{}, line {}: {}", file, line, fall_text(samples[at - 1], samples[at])),
                   TrackProblem::time_not_increasing, {std::string(file), std::to_string(line)});
-  const auto repeated = std::ranges::unique(samples, {}, &TrackedPose::time_ns);
-  if (repeated.empty()) return;
-  const std::string rows = std::to_string(repeated.size());
+  const auto same = [](const TrackedPose& a, const TrackedPose& b) { return a.time_ns == b.time_ns; };
+  const auto kept = std::unique(samples.begin(), samples.end(), same);
+  if (kept == samples.end()) return;
+  if (!repeated_.are_few()) refuse_coarse_times(file);
+  const std::string rows = std::to_string(samples.end() - kept);
   track_.facts.remarks.push_back({"rows left out because they have the time of the row before: " + rows,
                                   TrackRemark::times_repeated,
                                   {rows}});
-  samples.erase(repeated.begin(), repeated.end());
+  samples.erase(kept, samples.end());
 }
 
-void TrackBuilder::spread(std::string_view file) {
-  std::vector<std::int64_t> times_ns;
-  for (const TrackedPose& sample : track_.samples) times_ns.push_back(sample.time_ns);
+void TrackBuilder::refuse_coarse_times(std::string_view file) const {
+  throw Error(fmt::format("'{}': {} % of the poses repeat the time of the one before, and not evenly, so "
+                          "that their times are not known",
+                          file, repeated_.percent()),
+              TrackProblem::times_too_coarse, {std::string(file), repeated_.percent()});
+}
+
+void TrackBuilder::spread(std::vector<std::int64_t> times_ns, std::string_view file) {
   const auto spread = tables::spread_times(std::move(times_ns));
-  if (!spread)
-    throw Error(fmt::format("'{}': {} % of the poses repeat the time of the one before, and not evenly, so "
-                            "that their times are not known",
-                            file, repeated_.percent()),
-                TrackProblem::times_too_coarse, {std::string(file), repeated_.percent()});
+  if (!spread) refuse_coarse_times(file);
   for (std::size_t i = 0; i < track_.samples.size(); ++i) track_.samples[i].time_ns = spread->times_ns[i];
   const std::string rows = fmt::format("{:.3g}", spread->rows_in_step),
                     step_s = fmt::format("{:.3g}", spread->step_s);

@@ -79,7 +79,8 @@ class TrackBuilder {
 
  private:
   void push(const TrackedPose& sample, const tables::Rows& rows);
-  void spread(std::string_view file);
+  void spread(std::vector<std::int64_t> times_ns, std::string_view file);
+  [[noreturn]] void refuse_coarse_times(std::string_view file) const;
 
   BodyTrack& track_;
   std::size_t most_;

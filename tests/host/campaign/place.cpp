@@ -85,8 +85,8 @@ Words changed(const ParameterSet& a, const ParameterSet& b) {
 // A calibration differs from drive to drive; what the robot carries must be what the file says, all of it.
 void expect_calibrated_or_old(const Place& place, const ParameterSet& old, const ParameterSet& now) {
   ParameterSet others = now;
-  for (const char* const name : {"c_R", "c_L", "b"}) others[name] = old.at(name);
-  EXPECT_EQ(others, old) << "only the three factors change";
+  for (const char* const name : {"c_R", "c_L", "b", "e"}) others[name] = old.at(name);
+  EXPECT_EQ(others, old) << "only the factors change";
   if (now == old) return;
   bool found = false;
   for (const auto& entry : fs::recursive_directory_iterator(place.folder())) {

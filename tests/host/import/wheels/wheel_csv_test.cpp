@@ -207,8 +207,8 @@ TEST(WheelCsv, BadCellsAreNamedWithLineAndColumn) {
 TEST(WheelCsv, RowsWithEmptyCellsAndRepeatedTimesAreCounted) {
   const WheelTrack track = wheels("time_s,left_counts,right_counts\n0,0,0\n1,,1\n2,2,2\n2,3,3\n3,4,4\n");
   EXPECT_EQ(track.samples.size(), 3U);
-  EXPECT_THAT(track.remarks, ElementsAre(Tells(WheelTableProblem::rows_incomplete, "w.csv", "1"),
-                                         Tells(WheelTableProblem::times_repeated, "w.csv", "1")));
+  EXPECT_THAT(track.remarks, ElementsAre(Tells(WheelTableProblem::times_repeated, "w.csv", "1"),
+                                         Tells(WheelTableProblem::rows_incomplete, "w.csv", "1")));
 }
 
 TEST(WheelCsv, RowsOfTimesWithTooFewDigitsAreSpreadEvenlyOrRefused) {

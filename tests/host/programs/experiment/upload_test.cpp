@@ -96,7 +96,7 @@ TEST_F(Upload, YesDoesNotLoadWhatTheDrivesAdviseAgainstAndForceDoes) {
     const std::string file = std::string("c_R = 1.002\n[verdict]\nverdict = \"") + verdict +
                              "\"\nsentence = \"Keep what it carries.\"\n";
     const Outcome outcome = upload(file, {"--yes"});
-    EXPECT_EQ(outcome.code, 1) << verdict;
+    EXPECT_EQ(outcome.code, 3) << verdict;
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning: Keep what it carries."),
                                    HasSubstr("nothing was changed"), HasSubstr("--force")));
     EXPECT_EQ(on_robot("c_R"), 1) << verdict;

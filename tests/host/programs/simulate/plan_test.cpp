@@ -60,7 +60,7 @@ TEST(PlanCommand, TakesTheSizesOfRunsAndTheNoise) {
 TEST(PlanCommand, SaysHowPreciselyEIsFoundAndWhatItTakes) {
   const Outcome squares = astrolabe({"plan", "--e", "--squares", "10"});
   EXPECT_EQ(squares.code, 0) << squares.err;
-  EXPECT_THAT(squares.out, HasSubstr("standard error of e: 0.1"));
+  EXPECT_THAT(squares.out, HasSubstr("standard error of e: 0.02"));
   EXPECT_THAT(squares.out, HasSubstr("\nruns without circles hardly show e: add circles"));
   const Outcome usual = astrolabe({"plan", "--with-e"});
   EXPECT_THAT(usual.out, HasSubstr("6 squares of 3 m, 6 circles of radius 1 m"));

@@ -47,13 +47,13 @@ TEST(StudyCommand, GivesTheSameAsJson) {
   EXPECT_EQ(result["methods"][5]["trials"], 5);
   EXPECT_NEAR(result["methods"][0]["rms"]["E_d"].get<double>(), 0.00416, 1e-12) << "what was not calibrated";
   EXPECT_GT(result["bound"]["rms"]["b_over_S"], 0);
-  EXPECT_EQ(result["ml_covariance"]["expected"], 3);
+  EXPECT_EQ(result["ml_covariance"]["expected"], 4);
 }
 
 TEST(StudyCommand, ShowsEOnlyIfTheRobotHasOneOrDrivesCircles) {
   const Outcome usual = astrolabe(study({}));
   EXPECT_THAT(usual.out, testing::Not(HasSubstr("circles")));
-  EXPECT_THAT(usual.out, HasSubstr(", expected 3\n"));
+  EXPECT_THAT(usual.out, HasSubstr(", expected 4\n"));
   EXPECT_THAT(usual.out, HasSubstr("(median), true 2.645e-06 m\n"));
   const json without = support::parse_json(astrolabe(study({"--json"})).out);
   EXPECT_FALSE(without["bound"]["rms"].contains("e"));
