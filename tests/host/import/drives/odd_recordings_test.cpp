@@ -672,8 +672,9 @@ std::vector<OddKind> odd_kinds() {
       {"a link that sends every 0.3 s", {.every_s = 0.3}},
   };
   for (const auto& [name, link] : links) {
-    drives(fmt::format("wheels over {}", name), [=](Trajectory& run) { link.send(run.wheels); });
-    drives(fmt::format("ground truth over {}", name), [=](Trajectory& run) { link.send(run.truth); });
+    drives(fmt::format("wheels over {}", name), [link = link](Trajectory& run) { link.send(run.wheels); });
+    drives(fmt::format("ground truth over {}", name),
+           [link = link](Trajectory& run) { link.send(run.truth); });
   }
   return kinds;
 }
