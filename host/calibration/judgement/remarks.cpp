@@ -55,12 +55,13 @@ std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
   const char* const noise = noise_given ? "given" : "estimated";
   const JudgementProblem noise_problem =
       noise_given ? JudgementProblem::given_noise_is_wrong : JudgementProblem::estimated_noise_is_wrong;
-  if (ratio < 0.5)
+  const bool comparable = !estimate.ends_only;  // their slip is found from this very ratio
+  if (comparable && ratio < 0.5)
     list.push_back({fmt::format("the ground truth is only {:.2g} times as far from the wheels as the {} "
                                 "noise explains, so the standard errors are too large",
                                 std::sqrt(ratio), noise),
                     noise_problem});
-  if (ratio > 1.5)
+  if (comparable && ratio > 1.5)
     list.push_back(
         {fmt::format("the ground truth is {:.1f} times as far from the wheels as the {} noise "
                      "explains, so the standard errors are too small{}",

@@ -98,9 +98,11 @@ struct MlEstimate {
   /// errors that slip and tracker do not explain (whiteness.hpp); 0 if all samples are used.
   double spacing_m = 0;
   std::vector<RunFit> runs;
-  std::vector<Remark> left_out;   // PreparedRuns::left_out; other useless runs are errors
-  std::vector<Remark> mended;     // PreparedRuns::mended
-  std::vector<KindFit> kinds;     // only those that occur, in the order of Motion
+  std::vector<Remark> left_out;  // PreparedRuns::left_out; other useless runs are errors
+  std::vector<Remark> mended;    // PreparedRuns::mended
+  std::vector<KindFit>
+      kinds;               // only those that occur, in the order of Motion; none if only ends were measured
+  bool ends_only = false;  // of every run only the poses before and after it (Trajectory::has_ends_only)
   Eccentricities eccentricities;  // of the wheels; not corrected for
   double dispersion = 1;          // of the runs that are no outliers (agreement.hpp)
   double widening = 1;  // of variances, in all standard errors: the dispersion or more (clustered_dispersion)

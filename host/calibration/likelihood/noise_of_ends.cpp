@@ -18,8 +18,8 @@ NoiseModel noise_of_ends(std::span<const Trajectory> runs, const WheelFactors& l
   for (int round = 0; round < kRounds; ++round) {
     options.noise = noise;
     const MlEstimate fit = estimate_ml(runs, loaded, options);
-    // Fitted were the factors, the place of the body in each session, and each start.
-    const auto fitted = static_cast<int>(3 + 3 * fit.sessions.size() + 3 * runs.size());
+    // Fitted were the factors and the place of the body in each session.
+    const auto fitted = static_cast<int>(3 + 3 * fit.sessions.size());
     const double freedom = std::max(0, fit.degrees_of_freedom - fitted);
     const double usual = reading.K_m / noise.K_m;  // of the chi-square that this slip would give
     const double ratio = (fit.chi_square + kPriorWeight * usual) / (freedom + kPriorWeight);

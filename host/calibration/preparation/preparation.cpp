@@ -94,7 +94,8 @@ void require_samples(const Trajectory& run, bool clock_known) {
   const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
     return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
   });
-  if (finite < kFewestSamples && !(clock_known && run.has_ends_only()))
+  const bool both_ends = clock_known && run.has_ends_only() && finite == 2;
+  if (finite < kFewestSamples && !both_ends)
     throw Error(fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive",
                             run.name, finite),
                 PreparationProblem::too_little_truth, {run.name, std::to_string(finite)});

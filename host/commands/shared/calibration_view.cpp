@@ -106,13 +106,14 @@ std::string runs_text(const MlResult& ml) {
 }
 
 std::string motions_text(const calibration::MlEstimate& estimate) {
+  if (estimate.kinds.empty()) return "";  // only ends were measured
   Rows rows{{"motion", "samples", "metres", "degrees", "rms mm", "rms mrad", "chi²/dof"}};
   for (const calibration::KindFit& kind : estimate.kinds)
     rows.push_back({std::string(experiment::name_of(kind.motion)), fmt::format("{}", kind.samples),
                     fmt::format("{:.2f}", kind.distance_m), fmt::format("{:.0f}", degrees(kind.rotation_rad)),
                     known(1000 * kind.rms_xy_m, 2), known(1000 * kind.rms_theta_rad, 2),
                     fmt::format("{:.2f}", kind.chi_square_per_dof)});
-  return console::table(rows);
+  return console::table(rows) + '\n';
 }
 
 std::string verdict_text(const MlResult& ml) {
@@ -127,7 +128,7 @@ std::string ml_text(const Calibration& found) {
   for (const std::string& sentence : {experiment::lever_sentence(ml), experiment::clock_sentence(ml),
                                       experiment::wheelbase_sentence(found), experiment::noise_sentence(ml)})
     text += wrapped(sentence);
-  text += '\n' + runs_text(ml) + '\n' + motions_text(ml.estimate) + '\n';
+  text += '\n' + runs_text(ml) + '\n' + motions_text(ml.estimate);
   text += verdict_text(ml);
   return text;
 }

@@ -37,6 +37,7 @@ struct FactorErrors {
 struct MlResult {
   calibration::MlOptions options;
   calibration::MlEstimate estimate;
+  bool noise_given = false;                     // by a person
   std::vector<std::string> session_names = {};  // of each in the estimate; "" if it was found from the data
 };
 

@@ -53,7 +53,7 @@ nlohmann::json slip_events_json(const std::vector<calibration::SlipEvent>& slip_
 
 nlohmann::json remark_facts(const MlResult& ml) {
   nlohmann::json json = nlohmann::json::array();
-  for (const Remark& remark : calibration::remarks(ml.estimate, ml.options.noise.has_value()))
+  for (const Remark& remark : calibration::remarks(ml.estimate, ml.noise_given))
     json.push_back(remark.sentence);
   return json;
 }
@@ -119,7 +119,7 @@ nlohmann::json likelihood_json(const MlResult& ml) {
       {"b_over_scale_se_m", number(estimate.se.b_over_scale_m)},
       {"clock_known", ml.options.clock_known},
       {"noise",
-       {{"given", ml.options.noise.has_value()},
+       {{"given", ml.noise_given},
         {"K_m", estimate.noise.K_m},
         {"sigma_xy_m", estimate.noise.sigma_xy_m},
         {"sigma_theta_rad", number(estimate.noise.sigma_theta_rad)}}},

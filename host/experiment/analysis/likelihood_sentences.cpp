@@ -87,6 +87,8 @@ std::string lever_sentence(const MlResult& ml) {
 }
 
 std::string clock_sentence(const MlResult& ml) {
+  if (ml.estimate.ends_only)
+    return "Only the poses before and after each drive were measured, so the clocks do not matter.";
   if (ml.options.clock_known) return "The times of the ground truth are taken for the robot's own.";
   std::vector<std::string> rates;
   for (const calibration::SessionFit& session : ml.estimate.sessions)
@@ -136,9 +138,8 @@ std::string wheelbase_sentence(const Calibration& found) {
 std::string noise_sentence(const MlResult& ml) {
   const calibration::NoiseModel& noise = ml.estimate.noise;
   const bool headings = std::isfinite(ml.estimate.sessions.front().lever.theta_rad);
-  std::string text =
-      fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth {:.3g} mm",
-                  ml.options.noise ? "given" : "estimated", noise.K_m, 1000 * noise.sigma_xy_m);
+  std::string text = fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth {:.3g} mm",
+                                 ml.noise_given ? "given" : "estimated", noise.K_m, 1000 * noise.sigma_xy_m);
   if (headings) text += fmt::format(" and {:.3g} mrad", 1000 * noise.sigma_theta_rad);
   text += fmt::format(" a sample. Chi-square per degree of freedom: {:.2f}.",
                       ml.estimate.chi_square / std::max(1, ml.estimate.degrees_of_freedom));
@@ -159,7 +160,7 @@ std::string noise_sentence(const MlResult& ml) {
 }
 
 std::vector<Remark> verdict(const MlResult& ml) {
-  std::vector<Remark> remarks = calibration::remarks(ml.estimate, ml.options.noise.has_value());
+  std::vector<Remark> remarks = calibration::remarks(ml.estimate, ml.noise_given);
   for (Remark& remark : remarks) remark.sentence = capitalised(std::move(remark.sentence), ml.estimate.runs);
   if (remarks.empty()) remarks.push_back({"The runs agree with each other"});
   return remarks;

@@ -3,10 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "host/formats/tables/table.hpp"
 #include "host/formats/tables/times.hpp"
@@ -65,34 +63,5 @@ class TimeReader {
   std::int64_t longest_ns_ = 0;  // step so far
   std::optional<double> started_again_s_;
 };
-
-/// Rows that repeat the time of the row above: copies, or rows whose times have too few digits.
-class RepeatedTimes {
- public:
-  /// A row after the first. `changed`: it has other values than the row above.
-  void take(bool repeats, bool changed);
-  std::size_t rows() const { return rows_; }
-  /// Whether the others are enough: hardly any repeated time is that of a row with new values.
-  bool are_few() const;
-  /// The part of the rows with new values that repeat a time, in whole percent.
-  std::string percent() const;
-
- private:
-  std::size_t rows_ = 0, changed_ = 0, changed_rows_ = 0;
-};
-
-/// Whether times that rows share are those of a clock with too few digits: nearly all different ones are the same step apart.
-bool share_a_step(std::span<const std::int64_t> times_ns);
-
-/// Times of rows that were written with too few digits, as whole seconds with fifty rows in each, and are spread.
-struct SpreadTimes {
-  std::vector<std::int64_t> times_ns;  // strictly increasing
-  double step_s = 0, rows_in_step = 0;
-};
-
-/// Spreads the rows of each time evenly until the next one. The rows of the first time come at the end of it and those of the
-/// last at its beginning, because the recording began and ended within them. Nothing unless nearly all times between have the
-/// same number of rows, give or take a fifth or one. `times_ns` must not decrease.
-std::optional<SpreadTimes> spread_times(std::vector<std::int64_t> times_ns);
 
 }  // namespace astro::tables

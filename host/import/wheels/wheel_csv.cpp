@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host/base/order_statistics.hpp"
-#include "host/base/sample_times.hpp"
+#include "host/formats/tables/row_times.hpp"
 #include "host/formats/tables/stated_columns.hpp"
 #include "host/formats/tables/table.hpp"
 #include "host/formats/tables/time_column.hpp"
@@ -205,12 +205,7 @@ class WheelRows {
     }
     const auto time_ns = times_.read(table_);
     if (!time_ns) refuse_cell(*columns_.time.at, kNoTime, WheelTableProblem::not_a_time);
-    const Wheels& first = pairs_.front();
-    constexpr std::size_t kMostFalls = 100;
-    if (!first.empty() && *time_ns < first.back().time_ns && falls_.size() < kMostFalls)
-      falls_.emplace_back(first.size(), table_.rows().line());
-    const bool repeats = !first.empty() && *time_ns == first.back().time_ns;
-    if (first.size() >= most_rows_)
+    if (pairs_.front().size() >= most_rows_)
       refuse_line("the table has more rows than can be held: split it into one file for each run",
                   WheelTableProblem::too_many_rows);
     bool changed = false;
@@ -225,56 +220,40 @@ class WheelRows {
                             (sample.left != samples.back().left || sample.right != samples.back().right));
       samples.push_back(sample);
     }
-    repeated_.take(repeats, changed);
+    row_times_.take(*time_ns, table_.rows().line(), changed);
   }
 
-  /// Spreads rows that share a time if they are many; otherwise mends the times and leaves out rows that repeat one.
+  /// Mends the times, and leaves out rows that repeat one.
   void settle_times(std::vector<Remark>& remarks) {
-    if (falls_.empty() && !repeated_.are_few()) {
-      std::vector<std::int64_t> times_ns;
-      for (const WheelSample& sample : pairs_.front()) times_ns.push_back(sample.time_ns);
-      if (tables::share_a_step(times_ns)) return spread_times(std::move(times_ns), remarks);
-    }
     Wheels& first = pairs_.front();
-    mend_times_of(first, "the wheels", remarks);
-    for (const auto& [at, line] : falls_)
-      if (first[at].time_ns < first[at - 1].time_ns)
-        throw Error(fmt::format("{}, line {}: the time falls from {:.3f} s to {:.3f} s", name_, line,
-                                1e-9 * static_cast<double>(first[at - 1].time_ns),
-                                1e-9 * static_cast<double>(first[at].time_ns)),
-                    WheelTableProblem::times_fall, {name_, std::to_string(line)});
-    for (Wheels& pair : pairs_)
-      for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = first[i].time_ns;
+    const tables::SettledTimes settled = row_times_.settle(first, "the wheels", remarks);
+    if (settled.fall)
+      throw Error(fmt::format("{}, line {}: {}", name_, settled.fall->line, settled.fall->text()),
+                  WheelTableProblem::times_fall, {name_, std::to_string(settled.fall->line)});
+    if (settled.too_coarse)
+      throw Error(
+          fmt::format("{}: {} % of the rows with new values repeat the time of the row above, and not "
+                      "evenly, so that their times are not known",
+                      name_, row_times_.percent_repeated()),
+          WheelTableProblem::times_too_coarse, {name_, row_times_.percent_repeated()});
+    if (settled.spread) {
+      const std::string rows = fmt::format("{:.3g}", settled.spread->rows_in_step),
+                        step_s = fmt::format("{:.3g}", settled.spread->step_s);
+      remarks.push_back({fmt::format("{} has {} rows of each time, which are {} s apart; they were spread "
+                                     "evenly in between",
+                                     name_, rows, step_s),
+                         WheelTableProblem::times_spread,
+                         {name_, rows, step_s}});
+    }
     const std::size_t rows = first.size();
+    for (Wheels& pair : pairs_)
+      for (std::size_t i = 0; i < rows; ++i) pair[i].time_ns = first[i].time_ns;
     for (Wheels& pair : pairs_) leave_out_repeated(pair);
-    const std::size_t left_out = rows - first.size();
-    if (left_out > 0 && !repeated_.are_few()) refuse_coarse_times();
-    if (left_out > 0)
+    if (const std::size_t left_out = rows - first.size(); left_out > 0)
       remarks.push_back({name_ + " has " + std::to_string(left_out) +
                              " rows that repeat the time of the row above; they were left out",
                          WheelTableProblem::times_repeated,
                          {name_, std::to_string(left_out)}});
-  }
-
-  [[noreturn]] void refuse_coarse_times() const {
-    throw Error(fmt::format("{}: {} % of the rows with new values repeat the time of the row above, and not "
-                            "evenly, so that their times are not known",
-                            name_, repeated_.percent()),
-                WheelTableProblem::times_too_coarse, {name_, repeated_.percent()});
-  }
-
-  void spread_times(std::vector<std::int64_t> times_ns, std::vector<Remark>& remarks) {
-    const auto spread = tables::spread_times(std::move(times_ns));
-    if (!spread) refuse_coarse_times();
-    for (Wheels& pair : pairs_)
-      for (std::size_t i = 0; i < pair.size(); ++i) pair[i].time_ns = spread->times_ns[i];
-    const std::string rows = fmt::format("{:.3g}", spread->rows_in_step),
-                      step_s = fmt::format("{:.3g}", spread->step_s);
-    remarks.push_back(
-        {fmt::format("{} has {} rows of each time, which are {} s apart; they were spread evenly in between",
-                     name_, rows, step_s),
-         WheelTableProblem::times_spread,
-         {name_, rows, step_s}});
   }
 
   /// Of travel per interval the last row of a time holds that of the others, too.
@@ -341,10 +320,8 @@ class WheelRows {
   WheelColumns columns_;
   tables::TimeReader times_;
   std::vector<Wheels> pairs_;
-  std::vector<std::pair<std::size_t, int>>
-      falls_;  // rows with a time before that of the row above, and their lines
   std::size_t most_rows_ = 0, incomplete_ = 0;
-  tables::RepeatedTimes repeated_;
+  tables::RowTimes row_times_;
 };
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/sample_times.hpp"
 #include "host/truth/files/rotations.hpp"
 #include "host/truth/files/track_problem.hpp"
 
@@ -16,11 +15,6 @@ namespace {
 /// for each sample of 72 bytes, so with this limit at most four times the size of the text and 64 MiB.
 constexpr std::size_t kFreeSampleBytes = std::size_t{24} << 20;
 constexpr double kSampleBytesPerByte = 1.85;
-
-std::string fall_text(const TrackedPose& before, const TrackedPose& sample) {
-  return fmt::format("the time falls from {:.3f} s to {:.3f} s", 1e-9 * static_cast<double>(before.time_ns),
-                     1e-9 * static_cast<double>(sample.time_ns));
-}
 
 bool is_text(std::size_t slot) { return slot < kTextSlots; }
 
@@ -108,71 +102,52 @@ TrackBuilder::TrackBuilder(BodyTrack& track, std::string_view text) : track_(tra
   track_.samples.reserve(std::min(most_, lines + 1));
 }
 
-void TrackBuilder::push(const TrackedPose& sample, const tables::Rows& rows) {
+void TrackBuilder::add_stamped(const TrackedPose& sample, const tables::Rows& rows) {
   if (track_.samples.size() >= most_)
     rows.refuse("the file has more rows than can be held: split it into one file for each run");
-  if (!track_.samples.empty()) {
-    const TrackedPose& before = track_.samples.back();
-    repeated_.take(sample.time_ns == before.time_ns, sample.pose != before.pose);
-  }
+  const bool changed = !track_.samples.empty() && sample.pose != track_.samples.back().pose;
+  row_times_.take(sample.time_ns, rows.line(), changed);
   track_.samples.push_back(sample);
 }
 
 void TrackBuilder::add(const TrackedPose& sample, const tables::Rows& rows) {
   if (!track_.samples.empty() && sample.time_ns < track_.samples.back().time_ns)
-    rows.refuse(fall_text(track_.samples.back(), sample), TrackProblem::time_not_increasing);
-  push(sample, rows);
-}
-
-void TrackBuilder::add_stamped(const TrackedPose& sample, const tables::Rows& rows) {
-  constexpr std::size_t kMostFalls = 100;
-  if (!track_.samples.empty() && sample.time_ns < track_.samples.back().time_ns && falls_.size() < kMostFalls)
-    falls_.emplace_back(track_.samples.size(), rows.line());
-  push(sample, rows);
+    rows.refuse(tables::TimeFall{rows.line(), 1e-9 * static_cast<double>(track_.samples.back().time_ns),
+                                 1e-9 * static_cast<double>(sample.time_ns)}
+                    .text(),
+                TrackProblem::time_not_increasing);
+  add_stamped(sample, rows);
 }
 
 void TrackBuilder::finish(std::string_view file) {
-  if (falls_.empty() && !repeated_.are_few()) {
-    std::vector<std::int64_t> times_ns;
-    for (const TrackedPose& sample : track_.samples) times_ns.push_back(sample.time_ns);
-    if (tables::share_a_step(times_ns)) return spread(std::move(times_ns), file);
-  }
   std::vector<TrackedPose>& samples = track_.samples;
-  mend_times_of(samples, "the ground truth", track_.facts.remarks);
-  for (const auto& [at, line] : falls_)
-    if (samples[at].time_ns < samples[at - 1].time_ns)
-      throw Error(fmt::format("{}, line {}: {}", file, line, fall_text(samples[at - 1], samples[at])),
-                  TrackProblem::time_not_increasing, {std::string(file), std::to_string(line)});
+  std::vector<Remark>& remarks = track_.facts.remarks;
+  const tables::SettledTimes settled = row_times_.settle(samples, "the ground truth", remarks);
+  if (settled.fall)
+    throw Error(fmt::format("{}, line {}: {}", file, settled.fall->line, settled.fall->text()),
+                TrackProblem::time_not_increasing, {std::string(file), std::to_string(settled.fall->line)});
+  if (settled.too_coarse)
+    throw Error(fmt::format("'{}': {} % of the poses repeat the time of the one before, and not evenly, so "
+                            "that their times are not known",
+                            file, row_times_.percent_repeated()),
+                TrackProblem::times_too_coarse, {std::string(file), row_times_.percent_repeated()});
+  if (settled.spread) {
+    const std::string rows = fmt::format("{:.3g}", settled.spread->rows_in_step),
+                      step_s = fmt::format("{:.3g}", settled.spread->step_s);
+    remarks.push_back({fmt::format("there are {} poses of each time, which are {} s apart; they were spread "
+                                   "evenly in between",
+                                   rows, step_s),
+                       TrackRemark::times_spread,
+                       {rows, step_s}});
+  }
   const auto same = [](const TrackedPose& a, const TrackedPose& b) { return a.time_ns == b.time_ns; };
   const auto kept = std::unique(samples.begin(), samples.end(), same);
   if (kept == samples.end()) return;
-  if (!repeated_.are_few()) refuse_coarse_times(file);
   const std::string rows = std::to_string(samples.end() - kept);
-  track_.facts.remarks.push_back({"rows left out because they have the time of the row before: " + rows,
-                                  TrackRemark::times_repeated,
-                                  {rows}});
+  remarks.push_back({"rows left out because they have the time of the row before: " + rows,
+                     TrackRemark::times_repeated,
+                     {rows}});
   samples.erase(kept, samples.end());
-}
-
-void TrackBuilder::refuse_coarse_times(std::string_view file) const {
-  throw Error(fmt::format("'{}': {} % of the poses repeat the time of the one before, and not evenly, so "
-                          "that their times are not known",
-                          file, repeated_.percent()),
-              TrackProblem::times_too_coarse, {std::string(file), repeated_.percent()});
-}
-
-void TrackBuilder::spread(std::vector<std::int64_t> times_ns, std::string_view file) {
-  const auto spread = tables::spread_times(std::move(times_ns));
-  if (!spread) refuse_coarse_times(file);
-  for (std::size_t i = 0; i < track_.samples.size(); ++i) track_.samples[i].time_ns = spread->times_ns[i];
-  const std::string rows = fmt::format("{:.3g}", spread->rows_in_step),
-                    step_s = fmt::format("{:.3g}", spread->step_s);
-  track_.facts.remarks.push_back(
-      {fmt::format(
-           "there are {} poses of each time, which are {} s apart; they were spread evenly in between", rows,
-           step_s),
-       TrackRemark::times_spread,
-       {rows, step_s}});
 }
 
 }  // namespace astro::truth

@@ -3,11 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "host/formats/tables/row_times.hpp"
 #include "host/formats/tables/rows.hpp"
-#include "host/formats/tables/time_column.hpp"
 #include "host/truth/files/body_track.hpp"
 #include "host/truth/files/track_problem.hpp"
 
@@ -72,21 +71,14 @@ class TrackBuilder {
 
   /// A sample with a stamp, whose faults finish() mends. Throws only for too many samples.
   void add_stamped(const TrackedPose& sample, const tables::Rows& rows);
-  /// Mends the times (sample_times.hpp), and leaves out samples that repeat one; if many do because the times have too few
-  /// digits, spreads them evenly. A remark says what was done. Throws astro::Error with file and line for times that fall
+  /// Mends the times (host/formats/tables/row_times.hpp), and leaves out samples that repeat one. A remark says what was done. Throws astro::Error with file and line for times that fall
   /// otherwise, and naming `file` if many times repeat, and not evenly.
   void finish(std::string_view file);
 
  private:
-  void push(const TrackedPose& sample, const tables::Rows& rows);
-  void spread(std::vector<std::int64_t> times_ns, std::string_view file);
-  [[noreturn]] void refuse_coarse_times(std::string_view file) const;
-
   BodyTrack& track_;
   std::size_t most_;
-  std::vector<std::pair<std::size_t, int>>
-      falls_;  // samples before those above them, the first of them, and their lines
-  tables::RepeatedTimes repeated_;
+  tables::RowTimes row_times_;
 };
 
 }  // namespace astro::truth

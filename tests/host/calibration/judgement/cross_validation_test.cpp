@@ -67,6 +67,23 @@ Verdict verdict_on(const DriveModel& model, const WheelFactors& in_use, int runs
   return cross_validate(drives, in_use, all, options).verdict;
 }
 
+TEST(CrossValidation, CallsNothingBetterThatDiffersByLessThanRobotsDoFromDayToDay) {
+  const DriveModel model = quiet_drive();
+  const std::vector<Trajectory> drives = varied_drives(model);
+  const auto judged = [&](Wrong what, double wrong) {
+    const WheelFactors in_use = off_by(model.actual, what, wrong);
+    return cross_validate(drives, in_use, estimate_ml(drives, in_use, known_clock()), known_clock());
+  };
+  for (const Wrong what : {Wrong::ratio, Wrong::scale, Wrong::wheelbase}) {
+    const double limit = what == Wrong::ratio ? 5e-4 : 3e-4;
+    const CrossValidation within = judged(what, 0.9 * limit), beyond = judged(what, 1.1 * limit);
+    EXPECT_EQ(within.verdict, Verdict::undecided);
+    EXPECT_TRUE(within.little_to_gain());
+    EXPECT_EQ(beyond.verdict, Verdict::better);
+    EXPECT_FALSE(beyond.within_drift);
+  }
+}
+
 // The lever arm of a session is not known without its only drive, so it is fitted to that drive.
 TEST(CrossValidation, HoldsOutTheOnlyDriveOfASession) {
   DriveModel model = astro_drive();

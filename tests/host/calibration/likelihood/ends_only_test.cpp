@@ -1,11 +1,16 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 
 #include <cstdio>
+#include <limits>
 
+#include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/noise_of_ends.hpp"
+#include "host/calibration/preparation/preparation_problem.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
+#include "tests/support/base/remarks.hpp"
 
 // Drives of which only the poses before and after were measured, with a tape or as a tracker's two rows.
 namespace astro::calibration {
@@ -48,6 +53,22 @@ TEST(EndsOnly, OfArbitraryDrivesGiveAllFactorsWithAnHonestError) {
     EXPECT_LT(chi_square, 3 + 0.95);
     EXPECT_GT(chi_square, slip < 1 ? 1.2 : 3 - 1.2);
   }
+}
+
+TEST(EndsOnly, AreNotSaidToDisagreeWithANoiseThatNobodyGave) {
+  DriveModel model = astro_drive();
+  model.noise = {2.645e-6, 0.002, 0.007};
+  for (std::uint64_t seed = 0; seed < 10; ++seed)
+    for (const Remark& remark : remarks(from_ends(drives_with_ends(model, seed), model.loaded), false))
+      EXPECT_NE(remark.kind, Kind(JudgementProblem::estimated_noise_is_wrong)) << remark.sentence;
+}
+
+TEST(EndsOnly, WithoutANumberForAPlaceAreRefused) {
+  const DriveModel model = astro_drive();
+  std::vector<Trajectory> runs = drives_with_ends(model, kSeed);
+  runs[3].truth[1].x_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT([&] { from_ends(runs, model.loaded); },
+              support::ThrowsTelling(PreparationProblem::too_little_truth, "run 4", "1"));
 }
 
 TEST(EndsOnly, NeedTheirPosesAtRestAndNotTheirTimes) {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "host/formats/tables/column_name.hpp"
+#include "host/formats/tables/row_times.hpp"
 #include "host/formats/tables/stated_columns.hpp"
 #include "host/formats/tables/text_file.hpp"
 #include "host/formats/tables/time_column.hpp"

@@ -367,6 +367,7 @@ TEST_F(Files, OfWhichOnlyTheEndsWereMeasuredAreEnough) {
        {std::pair{"c_R", model.actual.c_r}, {"c_L", model.actual.c_l}, {"b_m", model.actual.b_m}})
     EXPECT_NEAR(found[name].get<double>(), actual, 3 * found["standard_errors"][name].get<double>()) << name;
   EXPECT_THAT(outcome.err, Not(HasSubstr("unit of length")));
+  EXPECT_EQ(found["noise"]["given"], false);
 }
 
 TEST_F(Files, AreInspectedWithTheCommandThatCalibrates) {
