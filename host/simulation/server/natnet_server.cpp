@@ -24,8 +24,9 @@ std::uint64_t ticks(std::int64_t time_us) {
 
 }  // namespace
 
-NatNetServer::NatNetServer(const net::udp::endpoint& at, std::string body, natnet::Version version)
-    : socket_(net::bind_udp(io_, at)), body_(std::move(body)), version_(version) {}
+NatNetServer::NatNetServer(const net::udp::endpoint& at, std::string body, natnet::Version version,
+                           std::uint16_t data_port)
+    : socket_(net::bind_udp(io_, at)), body_(std::move(body)), version_(version), data_port_(data_port) {}
 
 void NatNetServer::work(std::int64_t now_us) {
   std::array<std::uint8_t, 1024> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): receive fills it
@@ -53,8 +54,8 @@ void NatNetServer::take(const net::Datagram& datagram, std::int64_t now_us) {
     net::send_datagram(socket_, natnet::datagram_of(id, payload), datagram.from);
   };
   if (packet->id == natnet::Id::connect) {
-    reply(natnet::Id::server_info,
-          natnet::payload_of(natnet::ServerInfo{"Astrolabe", version_, 1'000'000 * kTicksPerMicrosecond}));
+    reply(natnet::Id::server_info, natnet::payload_of(natnet::ServerInfo{
+                                       "Astrolabe", version_, 1'000'000 * kTicksPerMicrosecond, data_port_}));
   } else if (packet->id == natnet::Id::request_models) {
     reply(natnet::Id::models, natnet::payload_of(natnet::BodyNames{{kBodyId, body_}}, version_));
   } else if (packet->id == natnet::Id::echo_request && packet->payload.size() == sizeof(std::uint64_t)) {

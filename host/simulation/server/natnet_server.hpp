@@ -17,8 +17,10 @@ namespace astro::simulation {
 /// Bounds  16 clients. A client that has sent nothing for five seconds is dropped.
 class NatNetServer {
  public:
-  /// `at`: its address for commands. Throws astro::Error if that is in use.
-  NatNetServer(const net::udp::endpoint& at, std::string body, truth::natnet::Version version);
+  /// `at`: its address for commands. `data_port`: where clients are told to expect frames, too. Throws
+  /// astro::Error if the address is in use.
+  NatNetServer(const net::udp::endpoint& at, std::string body, truth::natnet::Version version,
+               std::uint16_t data_port);
 
   /// Takes what clients send. `now_us`: on the tracker's clock.
   void work(std::int64_t now_us);
@@ -41,6 +43,7 @@ class NatNetServer {
   net::udp::socket socket_;
   std::string body_;
   truth::natnet::Version version_;
+  std::uint16_t data_port_;
   std::list<Client> clients_;
 };
 

@@ -34,7 +34,7 @@ NetworkTracker::NetworkTracker(const NetworkTrackerConfig& config)
     vrpn_ = std::make_unique<VrpnServer>(net::tcp::endpoint(address, *config.vrpn_port), body_);
   if (config.natnet_port)
     natnet_ = std::make_unique<NatNetServer>(net::udp::endpoint(address, *config.natnet_port), body_,
-                                             config.natnet_version);
+                                             config.natnet_version, config.natnet_data_port);
 }
 
 NetworkTracker::~NetworkTracker() = default;

@@ -19,7 +19,9 @@ struct NetworkTrackerConfig {
   std::optional<std::uint16_t> vrpn_port;    // 0: any that is free; nothing: no VRPN
   std::optional<std::uint16_t> natnet_port;  // the same for NatNet
   truth::natnet::Version natnet_version{4, 1};
-  bool everywhere = false;  // other computers may connect, too
+  std::uint16_t natnet_data_port =
+      truth::natnet::kDataPort;  // that NatNet clients are told; 0: any of theirs
+  bool everywhere = false;       // other computers may connect, too
   std::string body = "ASTRO";
   TrackingFaults faults;
   std::shared_ptr<FrameSink> also;  // another receiver of the frames; may be empty

@@ -46,9 +46,21 @@ Bytes greeting(const std::string& body, std::int64_t now_us) {
 }  // namespace
 
 VrpnServer::VrpnServer(const net::tcp::endpoint& at, std::string body)
-    : listener_(net::listen_tcp(io_, at)),
-      requests_(net::bind_udp(io_, {at.address(), endpoint().port()})),
-      body_(std::move(body)) {}
+    : listener_(net::listen_tcp(io_, at)), requests_(bind_requests(at)), body_(std::move(body)) {}
+
+/// Of the port numbers that the system finds free for TCP, some are in use for UDP. If any will do, others are
+/// tried.
+net::udp::socket VrpnServer::bind_requests(const net::tcp::endpoint& at) {
+  constexpr int kMostTries = 20;
+  for (int i = 1;; ++i) {
+    try {
+      return net::bind_udp(io_, {at.address(), endpoint().port()});
+    } catch (const Error&) {
+      if (at.port() != 0 || i == kMostTries) throw;
+      listener_ = net::listen_tcp(io_, at);
+    }
+  }
+}
 
 void VrpnServer::work(std::int64_t now_us) {
   io_.restart();

@@ -41,6 +41,7 @@ class VrpnServer {
     truth::vrpn::Directory directory{};
   };
 
+  net::udp::socket bind_requests(const net::tcp::endpoint& at);
   void add(net::tcp::socket socket, std::shared_ptr<const net::Connecting> called, std::int64_t now_us);
   void accept(std::int64_t now_us);
   void take_requests(std::int64_t now_us);
