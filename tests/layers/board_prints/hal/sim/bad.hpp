@@ -1,5 +1,0 @@
-#pragma once
-
-#include <cstdio>
-
-inline void hint() { std::printf("wrong"); }

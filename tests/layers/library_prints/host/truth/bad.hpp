@@ -1,5 +1,0 @@
-#pragma once
-
-#include <iostream>
-
-inline void hint() { std::cerr << "wrong"; }

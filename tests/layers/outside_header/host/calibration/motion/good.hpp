@@ -1,5 +1,0 @@
-#pragma once
-#include <fmt/format.h>
-
-#include <Eigen/Core>
-#include <vector>

@@ -1,1 +1,0 @@
-const char* const kHint = "'umbmark' has driven these";

@@ -1,1 +1,0 @@
-void view_info() {}

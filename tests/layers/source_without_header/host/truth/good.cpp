@@ -1,3 +1,0 @@
-#include "host/truth/good.hpp"
-
-void Good::begin() {}
