@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "host/experiment/drive/experiment.hpp"
-#include "host/simulation/robot/camera_truth.hpp"
 #include "host/simulation/robot/in_process.hpp"
 
 namespace {
