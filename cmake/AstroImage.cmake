@@ -5,7 +5,7 @@ include(AstroModule)
 
 function(astro_image name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
-  set(script ${CMAKE_SOURCE_DIR}/hal/teensy40/boot/teensy40.ld)
+  set(script ${CMAKE_SOURCE_DIR}/hal/teensy40/core/teensy40.ld)
   set(file ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name})
   astro_program(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS} hal.teensy40)
   set_target_properties(${name} PROPERTIES SUFFIX .elf LINK_DEPENDS ${script})

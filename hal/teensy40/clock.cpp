@@ -1,6 +1,6 @@
 #include "hal/teensy40/clock.hpp"
 
-#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 
 namespace astro::teensy40 {
 

@@ -1,6 +1,6 @@
 #include "hal/teensy40/encoders.hpp"
 
-#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/pins.hpp"
 
 namespace astro::teensy40 {

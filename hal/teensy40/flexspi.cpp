@@ -1,7 +1,6 @@
 #include "hal/teensy40/flexspi.hpp"
 
 #include "hal/teensy40/core/cpu.hpp"
-#include "hal/teensy40/core/poll.hpp"
 #include "hal/teensy40/registers/registers.hpp"
 
 namespace astro::teensy40::flexspi_commands {

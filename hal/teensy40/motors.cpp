@@ -1,7 +1,7 @@
 #include "hal/teensy40/motors.hpp"
 
 #include "hal/teensy40/arithmetic/duty_counts.hpp"
-#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/pins.hpp"
 
 namespace astro::teensy40 {

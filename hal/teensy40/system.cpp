@@ -2,7 +2,6 @@
 
 #include "hal/teensy40/arithmetic/reset_cause.hpp"
 #include "hal/teensy40/clock.hpp"
-#include "hal/teensy40/core/clock_gate.hpp"
 #include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/motors.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/core/interrupts.hpp"
 #include "hal/teensy40/pins.hpp"
 

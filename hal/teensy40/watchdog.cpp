@@ -1,8 +1,6 @@
 #include "hal/teensy40/watchdog.hpp"
 
-#include "hal/teensy40/core/clock_gate.hpp"
 #include "hal/teensy40/core/cpu.hpp"
-#include "hal/teensy40/core/poll.hpp"
 
 namespace astro::teensy40::watchdog {
 namespace {

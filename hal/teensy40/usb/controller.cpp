@@ -1,8 +1,6 @@
 #include "hal/teensy40/usb/controller.hpp"
 
-#include "hal/teensy40/core/clock_gate.hpp"
 #include "hal/teensy40/core/cpu.hpp"
-#include "hal/teensy40/core/poll.hpp"
 #include "hal/teensy40/registers/registers.hpp"
 
 namespace astro::teensy40::usb_device::controller {

@@ -14,7 +14,7 @@
 namespace astro {
 namespace {
 
-// Where hal/teensy40/boot puts the words that make a file an image, and name and version of the firmware.
+// Where hal/teensy40/core puts the words that make a file an image, and name and version of the firmware.
 constexpr std::size_t kConfigurationAt = 0, kVectorTableAt = 0x1000, kInfoAt = 0x1030;
 constexpr std::uint32_t kConfigurationTag = 0x4246'4346, kVectorTableTag = 0x4320'00D1;
 constexpr std::string_view kInfoTag = "Astrolabe";

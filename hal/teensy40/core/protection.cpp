@@ -1,4 +1,4 @@
-#include "hal/teensy40/boot/protection.hpp"
+#include "hal/teensy40/core/protection.hpp"
 
 #include <array>
 #include <cstdint>

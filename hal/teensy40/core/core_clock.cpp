@@ -1,6 +1,6 @@
-#include "hal/teensy40/boot/core_clock.hpp"
+#include "hal/teensy40/core/core_clock.hpp"
 
-#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/registers/registers.hpp"
 
 namespace astro::teensy40::core_clock {

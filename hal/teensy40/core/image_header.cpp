@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "common/base/version.hpp"
-#include "hal/teensy40/boot/start.hpp"
+#include "hal/teensy40/core/start.hpp"
 
 /// The data that the boot ROM reads before it runs the program: how to access the flash, and where the
 /// program is. The linker script puts each block at its place.

@@ -1,11 +1,10 @@
-#include "hal/teensy40/boot/start.hpp"
+#include "hal/teensy40/core/start.hpp"
 
-#include "hal/teensy40/boot/core_clock.hpp"
-#include "hal/teensy40/boot/protection.hpp"
-#include "hal/teensy40/boot/vectors.hpp"
 #include "hal/teensy40/clock.hpp"
-#include "hal/teensy40/core/clock_gate.hpp"
+#include "hal/teensy40/core/core_clock.hpp"
 #include "hal/teensy40/core/cpu.hpp"
+#include "hal/teensy40/core/protection.hpp"
+#include "hal/teensy40/core/vectors.hpp"
 #include "hal/teensy40/pins.hpp"
 #include "hal/teensy40/watchdog.hpp"
 

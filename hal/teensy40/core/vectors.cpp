@@ -1,10 +1,10 @@
-#include "hal/teensy40/boot/vectors.hpp"
+#include "hal/teensy40/core/vectors.hpp"
 
 #include <array>
 
 #include "hal/teensy40/arithmetic/reset_cause.hpp"
-#include "hal/teensy40/boot/start.hpp"
 #include "hal/teensy40/core/cpu.hpp"
+#include "hal/teensy40/core/start.hpp"
 #include "hal/teensy40/motors.hpp"
 
 extern "C" const std::uint8_t stack_bottom, stack_top;
