@@ -3,7 +3,6 @@
 #include "firmware/app/hosts/host_events.hpp"
 #include "firmware/app/hosts/host_sessions.hpp"
 #include "firmware/app/hosts/request_handler.hpp"
-#include "firmware/app/hosts/reset_cause.hpp"
 #include "firmware/app/hosts/restart.hpp"
 #include "firmware/app/tick/control_tick.hpp"
 

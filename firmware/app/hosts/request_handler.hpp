@@ -4,13 +4,12 @@
 
 #include "common/base/version.hpp"
 #include "common/protocol/messages.hpp"
-#include "firmware/app/flash/fault_journal.hpp"
-#include "firmware/app/flash/flash_layout.hpp"
-#include "firmware/app/flash/parameter_service.hpp"
+#include "firmware/app/hosts/fault_journal.hpp"
+#include "firmware/app/hosts/flash_layout.hpp"
 #include "firmware/app/hosts/host_events.hpp"
 #include "firmware/app/hosts/host_sessions.hpp"
 #include "firmware/app/hosts/motion_requests.hpp"
-#include "firmware/app/hosts/reset_cause.hpp"
+#include "firmware/app/hosts/parameter_service.hpp"
 #include "firmware/app/hosts/restart.hpp"
 #include "firmware/app/tick/control_tick.hpp"
 

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include "common/protocol/frame.hpp"
 #include "common/protocol/framer.hpp"
 #include "firmware/app/robot.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common/params/store.hpp"
-#include "firmware/app/flash/flash_layout.hpp"
+#include "firmware/app/hosts/flash_layout.hpp"
 #include "tests/support/robots/bench_robot.hpp"
 
 // After a restart the log still tells what stopped the robot: which fault, when, and what the robot was

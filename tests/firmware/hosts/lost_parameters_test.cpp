@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "firmware/app/flash/flash_layout.hpp"
+#include "firmware/app/hosts/flash_layout.hpp"
 #include "tests/support/robots/bench_robot.hpp"
 
 // If committed parameters are lost the robot reports it before anybody drives with older ones. Otherwise it
