@@ -2,7 +2,7 @@
 
 #include "host/console/command_line.hpp"
 
-/// The subcommands that move a robot and stop it. Each is a file named after it and adds itself to
+/// The subcommands that turn the wheels of a robot and stop them. Each is a file named after it and adds itself to
 /// the program, or to `drive`: options, examples in its footer, and a callback that does the work.
 ///
 /// Output  data on stdout; everything else (progress, questions, warnings) on stderr.
@@ -16,5 +16,7 @@ void add_drive_teleop(console::Command drive);
 void add_stop(console::Command app);
 void add_pause(console::Command app);
 void add_resume(console::Command app);
+void add_check_wiring(console::Command app);
+void add_tune(console::Command app);
 
 }  // namespace astro::commands

@@ -12,10 +12,10 @@
 #include "host/commands/truth/commands.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
-#include "host/film/paper/pdf.hpp"
-#include "host/film/paper/tag_picture.hpp"
-#include "host/film/paper/tag_sheet.hpp"
-#include "host/film/paper/text_sheet.hpp"
+#include "host/film/picture/pdf.hpp"
+#include "host/film/picture/tag_picture.hpp"
+#include "host/film/picture/tag_sheet.hpp"
+#include "host/film/picture/text_sheet.hpp"
 
 namespace astro::commands {
 namespace {

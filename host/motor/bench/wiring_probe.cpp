@@ -1,7 +1,6 @@
 #include "host/motor/bench/wiring_probe.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 
 namespace astro::motor {

@@ -7,7 +7,6 @@
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/simulate/commands.hpp"
 #include "host/commands/truth/commands.hpp"
-#include "host/commands/tune/commands.hpp"
 #include "host/console/command_line.hpp"
 
 namespace astro::commands {

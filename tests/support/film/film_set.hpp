@@ -24,7 +24,10 @@ struct FilmCase {
 /// and little noise, rows read downwards and upwards, one camera that sags.
 std::vector<std::string> good_film_names();
 
-/// The same name, also of a wrong film (wrong_films.hpp), gives the same film. Throws std::logic_error for any other name.
+/// Films of 9 s in 720p with 15 frames a second, each with one flaw.
+std::vector<std::string> wrong_film_names();
+
+/// The same name, also of a wrong film, gives the same film. Throws std::logic_error for any other name.
 /// Cost    that of driving, 0.2 s; the film is made by write()
 FilmCase film_case(const std::string& name);
 

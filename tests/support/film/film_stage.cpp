@@ -1,7 +1,6 @@
 #include "tests/support/film/film_stage.hpp"
 
 #include <array>
-#include <numbers>
 #include <random>
 
 namespace astro::support::film {

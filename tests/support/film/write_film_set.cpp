@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tests/support/film/film_set.hpp"
-#include "tests/support/film/wrong_films.hpp"
 
 // Writes the films by which an estimator is judged, with their runs and their truth, and says how long each took.
 //   film_set FOLDER [good|wrong|NAME...]

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <string>
 
 #include "host/film/track/scene_search.hpp"
 #include "tests/host/film/camera/synthetic_scene.hpp"

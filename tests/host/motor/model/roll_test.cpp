@@ -4,7 +4,6 @@
 
 #include <numbers>
 
-#include "host/base/error.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::motor {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/support/base/thorough.hpp"
-#include "tests/support/film/wrong_films.hpp"
+#include "tests/support/film/film_set.hpp"
 #include "tests/support/programs/program.hpp"
 
 // Each way in which a film can be wrong ends in one sentence that says what to film differently, and in nothing written.
@@ -54,7 +54,7 @@ TEST_P(WrongFilm, IsRefusedWithWhatToFilmDifferently) {
   const Sentence& sentence = sentences().at(GetParam());
   const test::TemporaryFolder temporary;
   const fs::path folder = temporary.path(), film = folder / "film.mp4", factors = folder / "factors.toml";
-  support::film::wrong_film(GetParam())->write(folder);
+  support::film::film_case(GetParam()).write(folder);
   const Outcome outcome = support::astrolabe({"calibrate", "runs", (folder / "runs").string(), "--truth",
                                               "film:" + film.string(), "--out", factors.string()});
   EXPECT_EQ(outcome.code, 1);
@@ -65,7 +65,7 @@ TEST_P(WrongFilm, IsRefusedWithWhatToFilmDifferently) {
 // Where nobody says when the robot's runs are, only a robot that drives out of the picture is known to be wrong.
 TEST(WrongFilmAlone, ShowsThatTheRobotDrivesOutOfThePicture) {
   const test::TemporaryFolder folder;
-  support::film::wrong_film("out-of-picture")->write(folder.path());
+  support::film::film_case("out-of-picture").write(folder.path());
   const Outcome outcome = support::astrolabe({"truth", "film", (folder.path() / "film.mp4").string()});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("the robot drives out of the picture at"));
@@ -76,7 +76,7 @@ TEST(WrongFilmAlone, ShowsThatTheRobotDrivesOutOfThePicture) {
 TEST(WrongFigures, AreNamedWithWhatTheFilmShows) {
   if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   const test::TemporaryFolder folder;
-  support::film::wrong_film("ends-too-early")->write(folder.path());
+  support::film::film_case("ends-too-early").write(folder.path());
   const std::string film = (folder.path() / "film.mp4").string();
   const std::vector<WrongWords> all{
       {{"--tape", "1:99=3.4"}, "floor tag 99, to which a distance is given, is not seen, but 1, 2"},

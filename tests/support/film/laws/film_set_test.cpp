@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tests/support/film/film_stage.hpp"
-#include "tests/support/film/wrong_films.hpp"
 #include "tests/support/tags/read_tags.hpp"
 
 // The films by which an estimator is judged are what their names say.

@@ -1,17 +1,72 @@
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <set>
 #include <vector>
 
 #include "tests/support/film/film_stage.hpp"
-#include "tests/support/film/laws/edge_offsets.hpp"
 #include "tests/support/film/picture/renderer.hpp"
 #include "tests/support/tags/read_tags.hpp"
 
 // One picture, against formulas that are written here once more.
+
 namespace astro::support::film {
+
 namespace {
+
+struct GreyPicture {
+  int width_px, height_px;
+  std::vector<std::uint8_t> grey;
+
+  /// Between pixels: bilinear.
+  double at(double u, double v) const {
+    const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
+    const auto pixel = [&](int column, int row) {
+      return static_cast<double>(grey.at(static_cast<std::size_t>(row * width_px + column)));
+    };
+    const double du = u - left, dv = v - top;
+    return std::lerp(std::lerp(pixel(left, top), pixel(left + 1, top), du),
+                     std::lerp(pixel(left, top + 1), pixel(left + 1, top + 1), du), dv);
+  }
+};
+
+struct PicturePlace {
+  double u, v;
+};
+
+/// Where a black square's edges are, against where they should be: the mean distance of the four edges of a square in pixels,
+/// positive if the black is larger. `expected(edge, part)` is the place of an edge's point, part from 0 to 1; edges go round
+/// clockwise in the picture. An edge's place is the centroid of the brightness's slope across it, which is without bias for a
+/// symmetric blur in linear light.
+std::array<double, 4> edge_offsets_px(const GreyPicture& picture,
+                                      const std::function<PicturePlace(int, double)>& expected,
+                                      double reach_px) {
+  std::array<double, 4> offsets{};
+  for (int edge = 0; edge < 4; ++edge) {
+    double sum = 0;
+    int profiles = 0;
+    for (double part = 0.12; part <= 0.88; part += 0.01, ++profiles) {
+      const PicturePlace at = expected(edge, part), before = expected(edge, part - 0.01),
+                         after = expected(edge, part + 0.01);
+      const double du = after.u - before.u, dv = after.v - before.v, length = std::hypot(du, dv);
+      const double out_u = dv / length, out_v = -du / length;  // clockwise on the screen: outside is left
+      constexpr double kStep_px = 0.25;
+      double slopes = 0, moments = 0;
+      for (double away = -reach_px; away < reach_px; away += kStep_px) {
+        const double slope = picture.at(at.u + (away + kStep_px) * out_u, at.v + (away + kStep_px) * out_v) -
+                             picture.at(at.u + away * out_u, at.v + away * out_v);
+        slopes += slope;
+        moments += slope * (away + kStep_px / 2);
+      }
+      sum += moments / slopes;
+    }
+    offsets[static_cast<std::size_t>(edge)] = sum / profiles;
+  }
+  return offsets;
+}
 
 constexpr double kReach_px = 4;  // less than a cell of the tags below
 
@@ -206,4 +261,5 @@ TEST(Picture, HidesWhatALegCovers) {
 }
 
 }  // namespace
+
 }  // namespace astro::support::film

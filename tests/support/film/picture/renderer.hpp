@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/support/film/picture/floor_texture.hpp"
-#include "tests/support/film/picture/leg_layer.hpp"
+#include "tests/support/film/picture/moving_layers.hpp"
 #include "tests/support/film/picture/sensor.hpp"
 
 namespace astro::support::film {
