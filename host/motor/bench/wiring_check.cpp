@@ -1,16 +1,58 @@
 #include "host/motor/bench/wiring_check.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <map>
 #include <string>
 
+#include "host/base/error.hpp"
 #include "host/base/interrupted.hpp"
 #include "host/motor/bench/bench.hpp"
 #include "host/motor/bench/wiring_probe.hpp"
 #include "host/robot/parameters/upload.hpp"
 
 namespace astro::motor {
+
 namespace {
+
+constexpr double kStill_s = 2, kLongestWait_s = 60, kLeastTurn = 0.05;
+
+/// Turns of the wheel that turned more.
+double turned(const Moment& now, const Moment& start, const RobotFacts& robot) {
+  const auto left = std::llabs(now.counts[0] - start.counts[0]);
+  const auto right = std::llabs(now.counts[1] - start.counts[1]);
+  return static_cast<double>(std::max(left, right)) / robot.counts_per_turn();
+}
+
+/// Records what the wheels count while a person rolls the robot by hand, with its bridges open: waits until the wheels have
+/// turned and then stood still for two seconds. `idle` is called at least every 50 ms; an exception of it ends the wait.
+void wait_for_roll(Bench& bench, const Moment& start, const std::function<void()>& idle) {
+  Moment last = bench.fresh();
+  double still_since_s = last.time_s;
+  while (true) {
+    idle();
+    const Moment& now = bench.fresh();
+    if (now.counts != last.counts) still_since_s = now.time_s;
+    last = now;
+    const bool moved = turned(now, start, bench.facts()) > kLeastTurn;
+    if (moved && now.time_s - still_since_s >= kStill_s) return;
+    if (!moved && now.time_s - start.time_s > kLongestWait_s)
+      throw Error("nobody rolled the robot for a minute: nothing was changed");
+  }
+}
+
+/// The counts since `start` with the robot's parameters.
+Roll roll_since(Bench& bench, const Moment& start, const RolledLength& length) {
+  const RobotFacts& robot = bench.facts();
+  Roll roll{
+      {},          robot.counts_per_motor_rev, robot.gear_ratio, robot.wheel_diameter_m, length.distance_m,
+      length.turns};
+  const Moment& end = bench.fresh();
+  for (const Side side : kSides)
+    roll.counts[at(side)] = static_cast<double>(end.counts[at(side)] - start.counts[at(side)]);
+  return roll;
+}
 
 // One session for each motor: nothing is armed while a question is open.
 Probe drive_motor(robot::Client& client, const RobotFacts& facts, Side motor, double most_V,

@@ -6,7 +6,6 @@
 
 #include "host/base/error.hpp"
 #include "host/motor/bench/robot_facts.hpp"
-#include "host/motor/bench/roll_by_hand.hpp"
 #include "host/motor/model/roll.hpp"
 #include "host/motor/model/wiring.hpp"
 #include "host/robot/motion/drive.hpp"
@@ -16,6 +15,11 @@
 /// turned, and loads the parameters that correct what parameters can correct. Afterwards, if it is wanted,
 /// a person rolls the robot along a tape measure, which shows whether its counts per revolution are right.
 namespace astro::motor {
+
+/// How far a robot was rolled: one of them was measured.
+struct RolledLength {
+  std::optional<double> distance_m = {}, turns = {};  // turns: of a wheel
+};
 
 /// What a person says after a motor was driven.
 struct Look {
@@ -63,7 +67,7 @@ struct WiringResult {
 
 /// Drives each motor with at most `most_V`. A robot whose wires have to be changed by hand is not rolled.
 ///
-/// Throws what robot::DriveSession throws; what judge_roll(), wait_for_roll() and robot::upload() throw;
+/// Throws what robot::DriveSession throws; what judge_roll() and robot::upload() throw;
 /// astro::Error if the robot keeps the old parameters. The robot is disarmed at the end in every case.
 WiringResult check_wires(robot::Client& client, double most_V, const WiringHooks& hooks);
 
