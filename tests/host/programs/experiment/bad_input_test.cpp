@@ -8,11 +8,11 @@
 #include "tests/support/base/json.hpp"
 #include "tests/support/programs/program.hpp"
 
-// Bad input of any kind: one clear sentence that names the thing, a non-zero exit, nothing on stdout.
+// Bad input of any kind: one clear sentence that names the thing, a non-zero exit, nothing on stdout. What the libraries say of
+// files and folders is pinned in tests/host/commands/sentences.
 namespace astro {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 
 class BadInput : public testing::Test {
@@ -47,16 +47,6 @@ TEST_F(BadInput, UnknownOption) { refuses({"info", "--colour"}, {"--colour"}); }
 TEST_F(BadInput, MissingOption) { refuses({"calibrate", "end-poses"}, {"--cw"}); }
 TEST_F(BadInput, NoCommand) { refuses({}, {"--help"}); }
 
-TEST_F(BadInput, MissingFile) {
-  refuses({"calibrate", "end-poses", "--cw", "/nowhere/cw.csv", "--ccw", file("ccw.csv", kGood), "--side",
-           "3", "--wheelbase", "0.29"},
-          {"/nowhere/cw.csv"});
-}
-TEST_F(BadInput, FolderInPlaceOfAFile) {
-  refuses({"calibrate", "end-poses", "--cw", folder_.path().string(), "--ccw", file("ccw.csv", kGood),
-           "--side", "3", "--wheelbase", "0.29"},
-          {folder_.path().string()});
-}
 TEST_F(BadInput, CalibrationOverWhatWasMeasured) {
   const std::string cw = file("cw.csv", kGood);
   refuses({"calibrate", "end-poses", "--cw", cw, "--ccw", file("ccw.csv", kGood), "--side", "3",
@@ -64,9 +54,6 @@ TEST_F(BadInput, CalibrationOverWhatWasMeasured) {
           {"cw.csv", "is no calibration or parameter file"});
   std::ifstream kept(cw);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), kGood);
-}
-TEST_F(BadInput, MillimetresCalledMetres) {
-  refuses_end_poses("ex_m,ey_m\n300,-250\n310,-260\n", {"cw.csv", "391 m", "ex_mm or ex_m"});
 }
 TEST_F(BadInput, SizesInMillimetres) {
   const auto end_poses = [&](const std::string& side, const std::string& wheelbase) {
@@ -119,12 +106,7 @@ TEST_F(BadInput, ExportOfFactorsThatARobotWouldRefuse) {
 TEST_F(BadInput, EmptyNameOfAFile) {
   refuses({"record", "--lines", "1", "--out", ""}, {"--out", "needs the name"});
 }
-TEST_F(BadInput, EmptyFile) { refuses_end_poses("", {"cw.csv"}); }
-TEST_F(BadInput, HeaderAlone) { refuses_end_poses("ex_mm,ey_mm\n", {"cw.csv"}); }
-TEST_F(BadInput, ColumnsWithoutUnits) { refuses_end_poses("ex,ey\n1,2\n", {"cw.csv", "ex"}); }
-TEST_F(BadInput, NotANumber) { refuses_end_poses("ex_mm,ey_mm\n1,two\n", {"cw.csv", "line 2", "two"}); }
 TEST_F(BadInput, Nan) { refuses_end_poses("ex_mm,ey_mm\n1,nan\n", {"cw.csv", "line 2"}); }
-TEST_F(BadInput, WrongNumberOfCells) { refuses_end_poses("ex_mm,ey_mm\n1,2\n3\n", {"cw.csv", "line 3"}); }
 TEST_F(BadInput, BinaryFile) { refuses_end_poses(std::string("\0\xff\xfe\x01", 4), {"cw.csv"}); }
 
 TEST_F(BadInput, SideOfZero) {
@@ -137,22 +119,14 @@ TEST_F(BadInput, NegativeWheelbase) {
            "3", "--wheelbase", "-0.29"},
           {"-0.29"});
 }
-TEST_F(BadInput, FolderWithoutRecordings) {
-  refuses({"calibrate", "runs", folder_.path().string()}, {folder_.path().string()});
-  refuses({"compare", folder_.path().string()}, {folder_.path().string()});
-  refuses({"report", "/nowhere"}, {"/nowhere"});
-}
 TEST_F(BadInput, WhatIsNoExperimentIsToldFromWhatIsNotThere) {
   const std::string folder = folder_.path().string(), some = file("some.toml", "");
   for (const char* command : {"compare", "report"}) {
-    refuses({command, folder}, {"'" + folder + "' holds no experiment", "umbmark"});
-    refuses({command, folder + "/none"}, {"none' does not exist: name the --out of"});
     refuses({command, some}, {"some.toml' is a file: name"});
     refuses({command, folder, folder}, {"no recordings"});
     refuses({command, folder + "/none", folder},
             {"none does not exist: name a folder that holds recorded runs"});
   }
-  refuses({"calibrate", "runs", some}, {"some.toml is a file: name a folder"});
 }
 TEST_F(BadInput, FolderInPlaceOfACalibration) {
   const std::string folder = folder_.path().string();
@@ -160,10 +134,6 @@ TEST_F(BadInput, FolderInPlaceOfACalibration) {
   const std::string some = file("some.toml", "");
   refuses({"upload", folder, "--port", "/nowhere"}, {"is a folder", "such as '" + some + "'"});
   refuses({"calibrate", "export", folder, "--to", "x.json"}, {"such as '" + some + "'"});
-}
-TEST_F(BadInput, RecordingThatIsNone) {
-  file("run.mcap", "this is no recording");
-  refuses({"calibrate", "runs", folder_.path().string()}, {"run.mcap"});
 }
 TEST_F(BadInput, UploadOfSomethingElse) {
   refuses({"upload", file("x.toml", "a = 1\n"), "--port", "/nowhere"}, {"x.toml", "[parameters]"});

@@ -116,17 +116,6 @@ TEST(Umbmark, NamesEOnTheTerminalInTheReportInTheFileAndOnTheRobot) {
   }
 }
 
-TEST(Umbmark, WithoutSlipOneRepeatLeavesAThirtiethAtMost) {
-  const Simulator simulator({"--fast", "--slip", "0"});
-  const std::string out = (simulator.folder() / "x").string();
-  const support::Outcome outcome = astrolabe(
-      umbmark(simulator, out, {"--runs", "2", "--rounds", "2", "--no-extras", "--json", "--force"}));
-  ASSERT_EQ(outcome.code, 0) << outcome.err;  // the second round finds nothing that is better
-  const double improvement = support::parse_json(outcome.out)["improvement"];
-  std::printf("over a pty without slip, two rounds: %.0f times smaller\n", improvement);
-  EXPECT_GE(improvement, 30);
-}
-
 TEST(Umbmark, YesLoadsNothingThatIsNotBetterAndEndsWithAReportOfWhatWasDriven) {
   const Simulator simulator({"--fast", "--slip", "0"});
   const auto run = [&](const char* name) {

@@ -127,29 +127,6 @@ TEST(StudyCommand, ShardsMergedPrintWhatTheWholePrints) {
   EXPECT_EQ(astrolabe(merge).out, astrolabe(study({"--json"})).out);
 }
 
-TEST(StudyCommand, MergeNamesWhatIsMissingMixedOrDoubled) {
-  const test::TemporaryFolder folder;
-  const std::string one = (folder.path() / "one").string(), other = (folder.path() / "other").string();
-  ASSERT_EQ(astrolabe(study({"--shard", "1/2", "--out", one})).code, 0);
-  ASSERT_EQ(astrolabe(study({"--shard", "2/2", "--out", other, "--seed", "9"})).code, 0);
-  const auto complaint = [](const Words& files) {
-    Words words{"study", "merge"};
-    words.insert(words.end(), files.begin(), files.end());
-    const Outcome outcome = astrolabe(words);
-    EXPECT_EQ(outcome.code, 1);
-    EXPECT_EQ(outcome.out, "");
-    return outcome.err;
-  };
-  EXPECT_THAT(complaint({one}), HasSubstr("of 5 trials 2 to 4 are missing"));
-  EXPECT_THAT(complaint({one, one}), HasSubstr("trial 0 is in"));
-  EXPECT_THAT(complaint({one, other}), HasSubstr("seed"));
-  const std::string simulated = (folder.path() / "simulated").string();
-  ASSERT_EQ(astrolabe(study({"--shard", "2/2", "--out", simulated, "--model", "simulator"})).code, 0);
-  EXPECT_THAT(complaint({one, simulated}), HasSubstr("model"));
-  EXPECT_THAT(complaint({one, folder.path() / "none"}), HasSubstr("does not exist"));
-  EXPECT_THAT(complaint({ASTROLABE_PROGRAM}), HasSubstr("is not a shard of a study"));
-}
-
 TEST(StudyCommand, CtrlCEndsItWithoutAResult) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "part";
