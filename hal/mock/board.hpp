@@ -7,12 +7,36 @@
 
 #include "hal/interface/board.hpp"
 #include "hal/mock/flash.hpp"
-#include "hal/mock/motors.hpp"
 #include "hal/mock/ports.hpp"
 
 /// A board without a world: a test sets every input and reads every output. Nothing happens by itself; even
 /// time passes only when the test sets it.
 namespace astro::mock {
+
+enum class Bridge : std::uint8_t { coast, brake, drive };
+
+/// H-bridges without motors, which remember the calls.
+struct Motors {
+  Bridge state = Bridge::coast;
+  hal::Duty duty;  // of the last drive(); brake() and coast() do not change it
+  bool faulted = false;
+  int drives = 0, brakes = 0, coasts = 0;  // calls so far
+
+  void drive(hal::Duty wanted) noexcept {
+    state = Bridge::drive;
+    duty = wanted;
+    ++drives;
+  }
+  void brake() noexcept {
+    state = Bridge::brake;
+    ++brakes;
+  }
+  void coast() noexcept {
+    state = Bridge::coast;
+    ++coasts;
+  }
+  bool fault() noexcept { return faulted; }
+};
 
 struct Clock {
   std::uint64_t time_us = 0;

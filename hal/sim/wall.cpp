@@ -1,7 +1,6 @@
 #include "hal/sim/wall.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

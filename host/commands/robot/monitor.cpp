@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "host/base/error.hpp"
 #include "host/commands/base/advice.hpp"

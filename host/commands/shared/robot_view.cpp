@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdio>
-#include <iostream>
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"

@@ -1,19 +1,66 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string>
 
+#include "host/base/blocked_signals.hpp"
 #include "host/base/environment.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/commands/base/served_robot_options.hpp"
 #include "host/commands/simulate/commands.hpp"
-#include "host/commands/simulate/ros_pose_publisher.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/formats/cdr/codec.hpp"
 #include "host/formats/cdr/names.hpp"
+#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/messages/geometry.hpp"
+#include "host/formats/messages/nodes.hpp"
+#include "host/live/dds/discovery.hpp"
+#include "host/live/dds/fast_dds.hpp"
+#include "host/live/dds/participant.hpp"
+#include "host/simulation/server/virtual_tracker.hpp"
 
 namespace astro::commands {
+
 namespace {
+
+/// The node /virtual_tracker, which publishes each frame as a PoseStamped in the frame "world", reliably. header.stamp is the
+/// tracker's clock.
+class RosPosePublisher : public simulation::FrameSink {
+ public:
+  /// `topic`: its full name. Throws astro::Error if the network does not allow it.
+  RosPosePublisher(const std::string& topic, const dds::Discovery& discovery);
+
+  void send(const simulation::TrackedFrame& frame) override;
+
+ private:
+  std::unique_ptr<dds::Participant> participant_;  // before its writers, so that it outlives them
+  std::unique_ptr<dds::Writer> nodes_, poses_;
+};
+
+namespace msg = ros2::msg;
+
+constexpr std::int64_t kNanosPerMicro = 1000;
+constexpr dds::Qos kReliable{true, false, 10}, kLatched{true, true, 1};
+
+RosPosePublisher::RosPosePublisher(const std::string& topic, const dds::Discovery& discovery) {
+  using Info = msg::ParticipantEntitiesInfo<msg::kGidBytes>;
+  const BlockedSignals blocked;
+  participant_ = dds::open_fast_dds(discovery, "virtual_tracker", "enclave=/;");
+  nodes_ = participant_->create_writer({"ros_discovery_info", ros2::dds_type_name(Info::kType), kLatched});
+  poses_ = participant_->create_writer({ros2::wire_name_of_topic(topic),
+                                        ros2::dds_type_name(msg::PoseStamped::kType), kReliable,
+                                        "typehash=" + ros2::hash_of<msg::PoseStamped>() + ";"});
+  nodes_->write(ros2::encode(
+      Info{{participant_->guid().bytes}, {{{"/"}, {"virtual_tracker"}, {}, {{poses_->guid().bytes}}}}}));
+}
+
+void RosPosePublisher::send(const simulation::TrackedFrame& frame) {
+  const truth::Pose3& p = frame.pose;
+  poses_->write(ros2::encode(msg::PoseStamped{{msg::to_time(kNanosPerMicro * frame.exposed_us), "world"},
+                                              {{p.x_m, p.y_m, p.z_m}, {p.qx, p.qy, p.qz, p.qw}}}));
+}
 
 struct Options : SimOptions {
   std::string ros_topic;  // "": not in ROS 2

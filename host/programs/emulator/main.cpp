@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <memory>
 #include <new>
-#include <string>
 
 #include "host/base/error.hpp"
 #include "host/commands/base/advice.hpp"

@@ -9,7 +9,6 @@
 #include "host/robot/client/robot_problem.hpp"
 #include "host/robot/motion/drive_problem.hpp"
 #include "host/robot/motion/other_program.hpp"
-#include "host/robot/motion/path_problem.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::robot {

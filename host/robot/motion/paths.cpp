@@ -7,7 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
-#include "host/robot/motion/path_problem.hpp"
+#include "host/robot/motion/drive_problem.hpp"
 
 namespace astro::robot {
 

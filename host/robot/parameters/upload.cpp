@@ -1,6 +1,5 @@
 #include "host/robot/parameters/upload.hpp"
 
-#include <optional>
 #include <type_traits>
 
 #include "host/robot/parameters/parameter_problem.hpp"

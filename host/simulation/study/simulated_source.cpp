@@ -12,7 +12,6 @@
 #include "host/recording/end_error.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "host/robot/parameters/upload.hpp"
-#include "host/simulation/robot/camera_truth.hpp"
 #include "host/simulation/robot/in_process.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 

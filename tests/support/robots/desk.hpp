@@ -4,7 +4,6 @@
 #include <string>
 
 #include "host/experiment/drive/experiment.hpp"
-#include "host/simulation/robot/camera_truth.hpp"
 #include "host/simulation/robot/in_process.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 

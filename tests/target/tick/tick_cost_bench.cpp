@@ -4,7 +4,7 @@
 
 #include "host/emulator/robot/emulated_robot.hpp"
 #include "host/experiment/drive/experiment.hpp"
-#include "host/simulation/robot/camera_truth.hpp"
+#include "host/simulation/robot/in_process.hpp"
 #include "tests/support/robots/desk.hpp"
 #include "tests/target/firmware_file.hpp"
 #include "tests/target/tick/tick_profile.hpp"

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/target/image/binutils.hpp"

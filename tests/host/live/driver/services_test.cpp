@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "host/formats/messages/ros_messages.hpp"
 #include "tests/support/ros2/robot_on_ros.hpp"

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "host/formats/messages/ros_messages.hpp"
 #include "host/formats/messages/std.hpp"

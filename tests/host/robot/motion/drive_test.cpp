@@ -7,7 +7,6 @@
 #include "host/robot/client/robot_problem.hpp"
 #include "host/robot/motion/arming.hpp"
 #include "host/robot/motion/drive_problem.hpp"
-#include "host/robot/motion/path_problem.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/links/fake_link.hpp"

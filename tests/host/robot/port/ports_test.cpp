@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <optional>
 
 #include "host/robot/client/discovery.hpp"
 #include "host/robot/client/handshake.hpp"

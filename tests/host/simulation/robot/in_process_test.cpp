@@ -1,5 +1,4 @@
 #include "host/simulation/robot/in_process.hpp"
-#include "host/simulation/robot/camera_truth.hpp"
 
 #include <gtest/gtest.h>
 
