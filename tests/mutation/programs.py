@@ -42,7 +42,7 @@ def sources(folder):
     def in_folder(name):
         return sorted(p for p in (folder / name).glob("*.cpp") if p.name not in TOO_LONG)
 
-    firmware = [p for room in ("flash", "hosts", "tick") for p in in_folder(f"tests/firmware/{room}")]
+    firmware = [p for room in ("hosts", "tick") for p in in_folder(f"tests/firmware/{room}")]
     seed = [folder / "tests/common/protocol/fixed_seed.cpp"]
     tests = {
         "safety": in_folder("tests/common/safety"),

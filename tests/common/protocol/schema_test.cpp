@@ -142,16 +142,6 @@ TEST(Schema, NamesEveryEnumerationValueAndNoOther) {
   EXPECT_EQ(meaning(ErrorCode{14}), "an error of another protocol version");
 }
 
-TEST(Schema, GivesEachFaultButNoneItsOwnBit) {
-  std::uint32_t seen = 0;
-  for (std::size_t i = 0; i < kFaultNames.size(); ++i) {
-    const std::uint32_t mask = bit(static_cast<Fault>(i));
-    EXPECT_EQ(seen & mask, 0U);
-    seen |= mask;
-  }
-  EXPECT_EQ(seen, 0xFFFEU);
-}
-
 TEST(Schema, CountsResetCausesAsTheBoardDoes) {
   EXPECT_EQ(static_cast<int>(ResetCause::power_on), static_cast<int>(hal::ResetCause::power_on));
   EXPECT_EQ(static_cast<int>(ResetCause::software), static_cast<int>(hal::ResetCause::software));

@@ -104,16 +104,6 @@ TEST_F(Driving, ALineEndsWhereItShould) {
   EXPECT_NEAR(y_m(), 0, 0.001);
 }
 
-TEST_F(Driving, ASquareClosesInItsOwnOdometry) {
-  arm();
-  add(robot::square(3, Sense::ccw, {0.3, 1.0}));
-  ASSERT_TRUE(until_rest());
-  std::printf("3 m square: closes to %.2f mm, %.2f mrad\n", 1000 * std::hypot(x_m(), y_m()),
-              1000 * theta_rad());
-  EXPECT_LT(std::hypot(x_m(), y_m()), 0.003);
-  EXPECT_LT(std::abs(theta_rad()), 0.003);
-}
-
 TEST_F(Driving, AnArcTurnsByItsAngleAlongItsLength) {
   arm();
   add(robot::arc(0.5 * std::numbers::pi, 0.25));  // quarter circle of radius 1 m

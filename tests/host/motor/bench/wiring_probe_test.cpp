@@ -4,7 +4,6 @@
 
 #include <cstdio>
 
-#include "host/motor/model/roll.hpp"
 #include "host/robot/motion/paths.hpp"
 #include "tests/host/motor/bench/rig.hpp"
 
@@ -104,11 +103,6 @@ std::vector<std::string> faults(const WiringVerdict& verdict) {
   return words;
 }
 
-TEST(Wiring, ARobotThatIsRightIsToldSo) {
-  support::Desk desk(quiet_robot(true));
-  EXPECT_THAT(faults(check(desk)), ElementsAre());
-}
-
 TEST(Wiring, MotorsAndEncodersBothSwappedAreSeenThoughTheCountsAgree) {
   sim::Config config = quiet_robot(true);
   config.wiring.motors_swapped = config.wiring.encoders_swapped = true;
@@ -137,32 +131,6 @@ TEST(Wiring, WrongCountsPerRevolutionDoNotMatterHere) {
     config.wiring.left_motor_reversed = true;
     support::Desk desk(config);
     EXPECT_THAT(faults(check(desk)), ElementsAre("left_motor_reversed"));
-  }
-}
-
-TEST(Roll, CountsPerRevolutionComeFromBeingPushedAlongATape) {
-  for (const double counts : {16.0, 32.0, 128.0}) {
-    sim::Config config = quiet_robot(false);
-    config.counts_per_motor_rev = counts;
-    support::Desk desk(config);
-    const RobotFacts facts = facts_on(desk);
-    Bench bench(desk.client, facts);
-    const Moment start = bench.fresh();
-    auto& board = desk.robot->board();
-    while (board.truth().x_m < 2.25) {  // somebody pushes
-      for (const auto side : {Side::left, Side::right})
-        board.set_load(side, {.torque_Nm = board.drivetrain().speed_radps()[0] < 10 ? 0.2 : 0.05});
-      desk.client.pump(std::chrono::milliseconds(10));
-    }
-    const Moment end = bench.fresh();
-    motor::Roll roll{{}, facts.counts_per_motor_rev, facts.gear_ratio, facts.wheel_diameter_m, {}, {}};
-    for (const Side side : kSides)
-      roll.counts[at(side)] = static_cast<double>(end.counts[at(side)] - start.counts[at(side)]);
-    roll.distance_m = board.truth().x_m;
-    const auto verdict = judge_roll(roll);
-    std::printf("%s\n", verdict.finding.sentence.c_str());
-    EXPECT_EQ(verdict.parameters.at("counts_per_motor_rev"), counts);
-    EXPECT_EQ(desk.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
   }
 }
 

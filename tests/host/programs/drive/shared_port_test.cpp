@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "host/recording/run_file.hpp"
 #include "tests/support/robots/watched_drive.hpp"
@@ -193,26 +192,6 @@ TEST_F(OnePort, AMonitorThatReadsNothingSlowsNobody) {
   EXPECT_EQ(program.wait(), 0) << program.err();
   EXPECT_NEAR(support::parse_json(program.out())["moved"]["x_m"], 1.2, 0.005);
   EXPECT_EQ(info()["faults"], json::array()) << "no command was late";
-}
-
-TEST_F(OnePort, TwoUploadsAtOnceAreNeverMixed) {
-  Program monitor = start({"monitor", "--json"});  // so that both share a port
-  ASSERT_TRUE(shows_samples(monitor));
-  const std::vector<std::vector<std::string>> sets{{"c_R=1.001", "c_L=1.001"}, {"c_R=1.002", "c_L=1.002"}};
-  for (int round = 0; round < 5; ++round) {
-    std::vector<std::unique_ptr<Program>> uploads;
-    for (const auto& set : sets) {
-      std::vector<std::string> command{ASTROLABE_PROGRAM};
-      const auto words = at_port({"params", "set", set[0], set[1], "--yes"});
-      command.insert(command.end(), words.begin(), words.end());
-      uploads.push_back(std::make_unique<Program>(command));
-    }
-    for (auto& upload : uploads) upload->wait();
-    const auto value = [&](const char* name) {
-      return support::parse_json(run({"params", "get", name, "--json"}).out);
-    };
-    EXPECT_EQ(value("c_R")["value"], value("c_L")["value"]) << uploads[0]->err() << uploads[1]->err();
-  }
 }
 
 TEST_F(OnePort, ADriveRecordsItself) {

@@ -149,17 +149,6 @@ TEST(TrackerOnTheNetwork, CalibratesInAWholeExperimentAsTheSimulatorsOwnTruthDoe
     }
 }
 
-TEST(TrackerOnTheNetwork, ABodyThatItDoesNotKnowIsAnErrorThatListsThoseThatItDoes) {
-  Simulator simulator({"--vrpn-port", "0"});
-  ASSERT_TRUE(support::eventually([&] { return !address_of(simulator).empty(); }));
-  const std::string address = address_of(simulator);
-  const support::Outcome outcome = astrolabe({"record", "--port", simulator.port(), "--truth",
-                                              address.substr(0, address.rfind('/')) + "/ROBOT", "--seconds",
-                                              "1", "--out", (simulator.folder() / "x.mcap").string()});
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("it knows no 'ROBOT'; it has described 'ASTRO'"));
-}
-
 TEST(TrackerOnTheNetwork, IsWatchedLive) {
   Simulator simulator({"--vrpn-port", "0"});
   ASSERT_TRUE(support::eventually([&] { return !address_of(simulator).empty(); }));

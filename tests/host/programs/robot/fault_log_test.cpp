@@ -58,21 +58,6 @@ TEST(FaultLog, StaysThroughClearingAndARestartOfTheRobot) {
   EXPECT_EQ(log_of(simulator).size(), 1U);
 }
 
-TEST(FaultLog, StaysInTheFileThatKeepsASimulatorsFlash) {
-  const test::TemporaryFolder folder;
-  const std::string flash = folder.path() / "flash";
-  std::filesystem::path file = flash;
-  for (const unsigned before : {0U, 1U}) {
-    Simulator simulator({"--fast", "--flash", flash});
-    EXPECT_EQ(log_of(simulator).size(), before);
-    ASSERT_EQ(astrolabe({"stop", "--emergency", "--port", simulator.port()}).code, 0);
-    ASSERT_TRUE(support::eventually([&] { return log_of(simulator).size() == before + 1; }));
-    EXPECT_EQ(log_of(simulator)[0]["start"], before + 1);
-    simulator.program().send(SIGTERM);
-    simulator.program().wait();
-  }
-}
-
 TEST(FaultLog, FlashFileOfAnEarlierVersionIsFilledUp) {
   const test::TemporaryFolder folder;
   const std::string flash = folder.path() / "flash";

@@ -16,7 +16,6 @@
 #include "host/robot/client/client.hpp"
 #include "host/robot/motion/drive.hpp"
 #include "host/robot/motion/paths.hpp"
-#include "host/robot/parameters/parameters.hpp"
 #include "host/robot/port/open_transport.hpp"
 #include "host/simulation/server/pty.hpp"
 #include "host/truth/live/socket_source.hpp"
@@ -34,8 +33,8 @@ using support::Tells;
 /// A server on a thread of its own, and a host at its pty.
 class Served {
  public:
-  explicit Served(bool fast, const std::filesystem::path& flash = {})
-      : server_(sim::Config(), MocapConfig(), {folder_.path() / "robot.pty", flash, fast}),
+  explicit Served(bool fast)
+      : server_(sim::Config(), MocapConfig(), {folder_.path() / "robot.pty", {}, fast}),
         thread_([this] { server_.run([this] { return stop_.load(); }); }) {}
   ~Served() {
     stop_ = true;
@@ -278,20 +277,6 @@ TEST(Server, TheCamerasSeeTheRobotDrive) {
   const double gone_m =
       std::hypot(samples.back().x_m - samples.front().x_m, samples.back().y_m - samples.front().y_m);
   EXPECT_NEAR(gone_m, 0.5, 0.01);  // wheels of nominal size; slip and camera noise are some millimetres
-}
-
-TEST(Server, KeepsTheFlashInItsFile) {
-  const test::TemporaryFolder folder;
-  const auto flash = folder.path() / "flash";
-  for (const double expected : {0.29, 0.2886}) {
-    const Served served(true, flash);
-    Host host(served);
-    auto parameters = robot::RemoteParameters::fetch(host.client);
-    EXPECT_EQ(std::get<double>(parameters.value("b")), expected);
-    parameters.stage("b", 0.2886);
-    parameters.commit();
-  }
-  EXPECT_EQ(std::filesystem::file_size(flash), sim::Flash::kBytes);
 }
 
 TEST(Server, TakesItsFilesAwayWithIt) {
