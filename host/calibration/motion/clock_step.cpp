@@ -68,6 +68,33 @@ void forget_leaps(const Trajectory& run, double reach_s, MotionProfile& wheels, 
   });
 }
 
+/// The time that the wheels' recording covers. Wheels that stand at one of its ends are taken to stand beyond it, too; nobody
+/// knows what wheels did that moved there.
+struct Covered {
+  double first_s = 0, last_s = 0;
+  bool stood_before = false, stood_after = false;
+
+  explicit Covered(const MotionProfile& wheels)
+      : first_s(wheels.first_s),
+        last_s(wheels.first_s + static_cast<double>(wheels.known.size() - 1) * wheels.bin_s) {
+    constexpr double kEnd_s = 0.5, kStands = 0.1;
+    const double limit = kStands * (rms(wheels.speed_mps, wheels.known) + rms(wheels.turn_mps, wheels.known));
+    const std::size_t size = wheels.known.size(),
+                      end = std::min(size, static_cast<std::size_t>(std::ceil(kEnd_s / wheels.bin_s)));
+    const auto stands = [&](std::size_t from) {
+      for (std::size_t i = from; i < from + end; ++i)
+        if (wheels.speed_mps[i] + wheels.turn_mps[i] > limit) return false;
+      return true;
+    };
+    stood_before = stands(0);
+    stood_after = stands(size - end);
+  }
+
+  bool has(double time_s, double reach_s) const {
+    return time_s >= first_s + (stood_before ? 0 : reach_s) && time_s <= last_s - (stood_after ? 0 : reach_s);
+  }
+};
+
 /// How badly each block of a drive fits the wheels at each offset about the clock's.
 class Offsets {
  public:
@@ -77,6 +104,7 @@ class Offsets {
     support_s_ = motion.window().support_s();
     MotionProfile wheels = motion.wheels(bin_s_), truth = motion.truth(bin_s_);
     forget_leaps(run, support_s_ / 2, wheels, truth);
+    forget_uncovered(wheels, truth);
     scale(wheels, truth);
     sum_up(wheels, truth);
   }
@@ -104,6 +132,15 @@ class Offsets {
   }
 
  private:
+  /// Where the wheels are not known at each offset, the truth's bins do not count.
+  void forget_uncovered(const MotionProfile& wheels, MotionProfile& truth) const {
+    const Covered covered(wheels);
+    for (std::size_t i = 0; i < truth.known.size(); ++i) {
+      const double time_s = truth.first_s + static_cast<double>(i) * bin_s_ + offset_s_;
+      if (!covered.has(time_s, kLongestStep_s + support_s_ / 2)) truth.known[i] = false;
+    }
+  }
+
   /// The wheels' speeds in the truth's size, so that wrong sizes of the robot do not count.
   static void scale(MotionProfile& wheels, const MotionProfile& truth) {
     const auto scaled = [&](std::vector<double>& values, const std::vector<double>& like) {
@@ -123,7 +160,7 @@ class Offsets {
         static_cast<std::size_t>(std::ceil(std::max(kShortestBlock_s, span_s / kMostBlocks) / bin_s_));
     block_s_ = static_cast<double>(bins) * bin_s_;
     errors_ = Errors::Zero(rows, static_cast<Eigen::Index>((truth.known.size() + bins - 1) / bins));
-    // The wheels stand before and after their samples.
+    // Where the wheels' samples end without a stand, no bin comes near these zeros.
     const Eigen::Index margin = rows + 1, size = std::ssize(wheels.known);
     Eigen::ArrayXd speed = Eigen::ArrayXd::Zero(size + 2 * margin), turn = speed;
     speed.segment(margin, size) = Eigen::ArrayXd::Map(wheels.speed_mps.data(), size);
@@ -213,6 +250,9 @@ std::optional<ClockStep> find_clock_step(const Trajectory& run, const ClockFit& 
   const int steps = static_cast<int>(most / step);
   for (int i = -steps; i <= steps; ++i) look_at(i * step);
   if (certainty(steady, split.error) < kPerhaps) return {};
+  const auto at_limit = [&](Eigen::Index row) { return row == 0 || row + 1 == offsets.offsets(); };
+  if (at_limit(split.before) || at_limit(split.after))
+    return {};  // the best offset is beyond those that were tried
   const Errors sums = running(offsets.at(skew));
   const Eigen::ArrayXd before = sums.col(split.block), after = sums.rightCols(1) - sums.col(split.block);
   const double by_s = top_s(offsets, after, split.after) - top_s(offsets, before, split.before);

@@ -17,7 +17,7 @@ struct ClockStep {
 
 /// Looks for the one moment at which two offsets, one before and one after it, explain the motion certainly better than one
 /// offset with any skew does. `clock` is that of the whole drive. Steps below 0.06 s are not told from noise, and steps
-/// beyond 2.5 s not sought.
+/// beyond 2.5 s not sought. Ground truth before and after the wheels' samples does not count.
 ///
 /// Cost  1 ms for a minute; 0.2 s for an hour.
 std::optional<ClockStep> find_clock_step(const Trajectory& run, const ClockFit& clock, double wheelbase_m);

@@ -127,6 +127,23 @@ TEST(ClockStep, LostSamplesAreNone) {
   }
 }
 
+TEST(ClockStep, WheelsThatAreCutWhileTheRobotMovesAreNone) {
+  int looked_at = 0;
+  for (const StudyDrive& drive : study_drives())
+    for (const auto& [from, to] : {std::pair{0.0, 0.55}, {0.0, 0.7}, {0.3, 1.0}, {0.45, 1.0}, {0.25, 0.8}}) {
+      Trajectory run = drive.run;
+      const auto n = static_cast<double>(run.wheels.size());
+      run.wheels.erase(run.wheels.begin() + std::lround(to * n), run.wheels.end());
+      run.wheels.erase(run.wheels.begin(), run.wheels.begin() + std::lround(from * n));
+      const ClockFit clock = search_clock(run, kWheelbase_m, {});
+      if (clock.correlation < 0.5 || clock.rival_offset_s) continue;  // such a drive is refused
+      const auto found = find_clock_step(run, clock, kWheelbase_m);
+      EXPECT_FALSE(found) << drive.name << ", " << from << " to " << to << ": " << found->by_s << " s";
+      ++looked_at;
+    }
+  std::printf("looked at %d drives with wheels that are cut\n", looked_at);
+}
+
 TEST(ClockStep, IsTakenBack) {
   Trajectory run = study_drives().front().run;
   const Trajectory before = run;
