@@ -17,6 +17,14 @@ using Times = std::vector<std::int64_t>;
 
 constexpr std::size_t kFewest = 20;
 constexpr double kLongestDelay_ns = 1e9;
+// A file may hold any times: their differences and sums must be numbers.
+constexpr std::int64_t kMost_ns = std::numeric_limits<std::int64_t>::max() / 4;
+
+bool can_be_mended(const Times& times) {
+  if (times.size() < kFewest) return false;
+  const auto [least, most] = std::ranges::minmax(times);
+  return least >= -kMost_ns && most <= kMost_ns;
+}
 
 double seconds(double ns) { return 1e-9 * ns; }
 
@@ -44,32 +52,59 @@ double usual_step_ns(const Times& times) {
   return median > steady / 3 ? median : steady;
 }
 
-/// Whether the samples about a fall of the times are as many before as after it as a clock gives in `fall_ns`.
-bool exists_twice(const Times& times, std::size_t at, double period_ns) {
-  constexpr double kMost = 0.8;
-  const double wanted = kMost * static_cast<double>(times[at - 1] - times[at]) / period_ns - 1;
+/// How many samples about a fall of the times have one that exists twice.
+struct Repeated {
   double before = 0, after = 0;
+};
+
+Repeated repeated_at(const Times& times, std::size_t at) {
+  Repeated repeated;
   for (std::size_t i = at; i-- > 0 && times[i] >= times[at] && (i + 1 == at || times[i] <= times[i + 1]);)
-    ++before;
+    ++repeated.before;
   for (std::size_t i = at;
        i < times.size() && times[i] < times[at - 1] && (i == at || times[i] >= times[i - 1]); ++i)
-    ++after;
-  return before >= wanted && after >= wanted;
+    ++repeated.after;
+  return repeated;
+}
+
+/// Where the clock was set back.
+struct SetBacks {
+  std::vector<std::pair<std::size_t, std::int64_t>> steps;  // the first sample after each, and by how much
+  std::optional<std::size_t> begins_again;                  // instead: the first sample of another recording
+};
+
+/// A fall counts if the samples about it are as many before as after it as a clock gives in that time.
+SetBacks set_backs_of(const Times& times) {
+  constexpr double kShortestPeriods = 3, kMost = 0.8, kNearlyAll = 0.9;
+  SetBacks found;
+  if (std::ranges::is_sorted(times)) return found;
+  const double period_ns = usual_step_ns(times);
+  if (!(period_ns > 0)) return found;
+  std::size_t begin = 0;  // of the samples since the fall before
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const std::int64_t fall_ns = times[i - 1] - times[i];
+    if (static_cast<double>(fall_ns) < kShortestPeriods * period_ns) continue;
+    const Repeated repeated = repeated_at(times, i);
+    const double wanted = kMost * static_cast<double>(fall_ns) / period_ns - 1;
+    if (repeated.before < wanted || repeated.after < std::min<double>(wanted, kFewest)) continue;
+    if (repeated.before > kNearlyAll * static_cast<double>(i - begin)) {
+      found.begins_again = i;
+      return found;
+    }
+    if (repeated.after < wanted) continue;
+    found.steps.emplace_back(i, fall_ns + std::llround(period_ns));
+    begin = i;
+  }
+  return found;
 }
 
 void set_on(Times& times, const std::string& what, std::vector<Remark>& remarks) {
-  constexpr double kShortestPeriods = 3;
-  if (std::ranges::is_sorted(times)) return;
-  const double period_ns = usual_step_ns(times);
-  if (!(period_ns > 0)) return;
+  constexpr std::size_t kMostSteps = 8;
+  const auto [steps, begins_again] = set_backs_of(times);
   std::int64_t late_ns = 0;
-  std::vector<std::pair<std::size_t, std::int64_t>> steps;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    const std::int64_t fall_ns = times[i - 1] - times[i];
-    if (static_cast<double>(fall_ns) < kShortestPeriods * period_ns || !exists_twice(times, i, period_ns))
-      continue;
-    steps.emplace_back(i, fall_ns + std::llround(period_ns));
-  }
+  for (const auto& [at, by_ns] : steps) late_ns += std::min(by_ns, kMost_ns - late_ns);
+  if (begins_again || steps.size() > kMostSteps || late_ns == kMost_ns) return;
+  late_ns = 0;
   std::size_t next = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (next < steps.size() && steps[next].first == i) {
@@ -148,13 +183,13 @@ void even_out(Times& times, const std::string& what, std::vector<Remark>& remark
 }  // namespace
 
 void mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks) {
-  // A file may hold any times: their differences must be numbers.
-  constexpr std::int64_t kMost_ns = std::numeric_limits<std::int64_t>::max() / 4;
-  if (times_ns.size() < kFewest) return;
-  const auto [least, most] = std::ranges::minmax(times_ns);
-  if (least < -kMost_ns || most > kMost_ns) return;
+  if (!can_be_mended(times_ns)) return;
   set_on(times_ns, what, remarks);
   even_out(times_ns, what, remarks);
+}
+
+std::optional<std::size_t> second_recording(const std::vector<std::int64_t>& times_ns) {
+  return can_be_mended(times_ns) ? set_backs_of(times_ns).begins_again : std::nullopt;
 }
 
 }  // namespace astro

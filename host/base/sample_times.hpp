@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -16,23 +16,28 @@ namespace astro {
 enum class TimesRemark { clock_set_back, bursts_evened };
 
 /// Mends `times_ns`, and adds a remark for each thing that was done. `what` names the stream: "the wheels".
-///   A clock that was set back in between: the samples after the fall are as many as those before it in the time that then
-///   exists twice. What follows is set on by the fall and a period, as if no sample were missing. Samples that merely came out
-///   of order are left so.
+///   A clock that was set back in between, at most eight times: the samples after the fall are as many as those before it in
+///   the time that then exists twice. What follows is set on by the fall and a period, as if no sample were missing. Samples
+///   that merely came out of order are left so, and so are two recordings of which one follows the other.
 ///   Bursts, of samples that waited for a link: each has the time at which it came. Samples of a steady clock are never late
 ///   by less than the least delay near them; so their number gives their times, but for a common delay. Without bursts
 ///   nothing is changed.
 /// Falls of up to three periods cannot be told from samples out of order.
 void mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks);
 
-/// The same for samples with a `time_ns`.
+/// The first sample of a second recording that follows a first one: nearly all times before it exist again after it.
+std::optional<std::size_t> second_recording(const std::vector<std::int64_t>& times_ns);
+
+/// The same for samples with a `time_ns`. Returns their times.
 template <class Sample>
-void mend_times_of(std::vector<Sample>& samples, const std::string& what, std::vector<Remark>& remarks) {
+std::vector<std::int64_t> mend_times_of(std::vector<Sample>& samples, const std::string& what,
+                                        std::vector<Remark>& remarks) {
   std::vector<std::int64_t> times_ns;
   times_ns.reserve(samples.size());
   for (const Sample& sample : samples) times_ns.push_back(sample.time_ns);
   mend_times(times_ns, what, remarks);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].time_ns = times_ns[i];
+  return times_ns;
 }
 
 }  // namespace astro

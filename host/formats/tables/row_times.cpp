@@ -65,9 +65,8 @@ std::string TimeFall::text() const {
 }
 
 void RowTimes::take(std::int64_t time_ns, int line, bool changed) {
-  constexpr std::size_t kMostFalls = 100;
   const bool repeats = last_ns_ == time_ns;
-  if (last_ns_ && time_ns < *last_ns_ && falls_.size() < kMostFalls) falls_.emplace_back(rows_, line);
+  if (last_ns_ && time_ns < *last_ns_) falls_.emplace_back(rows_, line);
   changed_ += changed ? 1 : 0;
   changed_repeated_ += repeats && changed ? 1 : 0;
   last_ns_ = time_ns;

@@ -67,7 +67,7 @@ class RowTimes {
 
   std::optional<std::int64_t> last_ns_;
   std::size_t rows_ = 0, changed_ = 0, changed_repeated_ = 0;
-  std::vector<std::pair<std::size_t, int>> falls_;  // the first of them: their rows, from 0, and lines
+  std::vector<std::pair<std::size_t, int>> falls_;  // their rows, from 0, and lines
 };
 
 }  // namespace astro::tables

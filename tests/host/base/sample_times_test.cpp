@@ -53,6 +53,37 @@ TEST(SampleTimes, OfAClockThatIsSetBackGoOn) {
     EXPECT_NEAR(double(times[i]), double(right[i]), 0.01 * kPeriod_ns);  // the period is found from the data
 }
 
+TEST(SampleTimes, OfTwoRecordingsInOneAreNotJoined) {
+  for (const auto& [first, second] :
+       {std::pair<std::size_t, std::size_t>{1000, 1000}, {400, 1000}, {1000, 400}}) {
+    Times times = steady(first);
+    for (const std::int64_t time : steady(second)) times.push_back(time + kPeriod_ns / 3);
+    const Times before = times;
+    EXPECT_THAT(mend(times), IsEmpty());
+    EXPECT_EQ(times, before);
+    EXPECT_EQ(second_recording(times), first);
+  }
+  EXPECT_FALSE(second_recording(steady(1000)));
+}
+
+TEST(SampleTimes, OfAClockThatIsSetBackOverAndOverStayAsTheyAre) {
+  Times times = steady(4000);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] -= 100'000'000 * std::int64_t(i / 300);
+  const Times before = times;
+  EXPECT_THAT(mend(times), IsEmpty());
+  EXPECT_EQ(times, before);
+}
+
+TEST(SampleTimes, ThatAreSetOnBeyondAllNumbersStayAsTheyAre) {
+  constexpr std::int64_t kYear_ns = 31'557'600'000'000'000;
+  Times times;
+  for (std::int64_t from = -60; from < 60; from += 18)
+    for (std::int64_t year = from; year < 60; ++year) times.push_back(year * kYear_ns);
+  const Times before = times;
+  EXPECT_THAT(mend(times), IsEmpty());
+  EXPECT_EQ(times, before);
+}
+
 TEST(SampleTimes, OutOfOrderAreNotTakenForAnotherClock) {
   Times times = steady(1000);
   std::swap(times[100], times[101]);                                           // two that overtook each other

@@ -204,6 +204,21 @@ TEST(WheelCsv, BadCellsAreNamedWithLineAndColumn) {
   EXPECT_THAT(why(std::string("a\0b\n", 4)), Tells(tables::TextProblem::not_plain_text, "w.csv", "2"));
 }
 
+TEST(WheelCsv, TwoRecordingsInOneTableAreRefusedAtTheSecond) {
+  std::string text = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 200; ++i) text += fmt::format("{:.2f},{},{}\n", 0.05 * (i % 100), i, i);
+  EXPECT_THAT(why(text), Tells(WheelTableProblem::times_fall, "w.csv", "102"));
+}
+
+TEST(WheelCsv, TimesThatFallBehindAHundredOtherFallsAreRefused) {
+  std::string text = "time_s,left_counts,right_counts\n";
+  for (int i = 0; i < 6000; ++i) {
+    const double late_s = i == 5990 ? 0.3 : 0.2 * (i / 50);
+    text += fmt::format("{:.2f},{},{}\n", 0.02 * i - late_s, i, i);
+  }
+  EXPECT_THAT(why(text), Tells(WheelTableProblem::times_fall, "w.csv", "52"));
+}
+
 TEST(WheelCsv, RowsWithEmptyCellsAndRepeatedTimesAreCounted) {
   const WheelTrack track = wheels("time_s,left_counts,right_counts\n0,0,0\n1,,1\n2,2,2\n2,3,3\n3,4,4\n");
   EXPECT_EQ(track.samples.size(), 3U);
