@@ -47,6 +47,36 @@ double turned_rad(const recording::Run& run) {
   return std::max(0.0, most - least);
 }
 
+/// Whether the ground truth has a stretch as long as the wheels' recording, and in which it goes as far as they do, without a
+/// turn: then the wheels may have been recorded there, and the turns before or after. The clocks are not known yet.
+bool may_go_straight(const recording::Run& run, double count_m) {
+  constexpr int kStretches = 20;  // that begin within one length of the wheels' recording
+  constexpr double kPart = 0.5;
+  const recording::OdometrySample& start = run.odometry.front();
+  std::int64_t reach = 0;
+  for (const recording::OdometrySample& at : run.odometry)
+    reach = std::max(reach, std::abs(std::int64_t{at.left_counts} - start.left_counts));
+  const std::int64_t span_us = run.odometry.back().time_us - start.time_us;
+  const double wanted_m = kPart * count_m * static_cast<double>(reach);
+  std::int64_t next_us = run.truth.front().time_us;
+  for (std::size_t from = 0; from < run.truth.size(); ++from) {
+    const recording::TruthSample& first = run.truth[from];
+    if (!first.valid || first.time_us < next_us) continue;
+    if (first.time_us + span_us > run.truth.back().time_us && from > 0) return false;
+    next_us = first.time_us + span_us / kStretches;
+    double least = HUGE_VAL, most = -HUGE_VAL, reach_m = 0;
+    for (std::size_t i = from; i < run.truth.size() && run.truth[i].time_us <= first.time_us + span_us; ++i) {
+      const recording::TruthSample& at = run.truth[i];
+      if (!at.valid || std::isnan(at.theta_rad)) continue;
+      least = std::min(least, at.theta_rad);
+      most = std::max(most, at.theta_rad);
+      reach_m = std::max(reach_m, std::hypot(at.x_m - first.x_m, at.y_m - first.y_m));
+    }
+    if (reach_m > wanted_m && most - least < kTurned_rad) return true;
+  }
+  return false;
+}
+
 /// How long a drive lasts: from where it first leaves the place of its start to where it last comes to that of its end. 0 if it
 /// goes nowhere.
 template <class Sample>
@@ -72,13 +102,14 @@ double moving_s(const std::vector<Sample>& samples, const auto& is_used) {
 
 void require_times_alike(const recording::Run& run, const AssumedTimeUnit& wheels,
                          const AssumedTimeUnit& truth) {
-  constexpr double kSeveral = 3;
+  // A tracker may go on for many drives of which the wheels' file has one.
+  constexpr double kSeveral = 3, kMany = 20;
   const AssumedTimeUnit& assumed = wheels.unit.empty() ? truth : wheels;
   if (assumed.unit.empty()) return;
   const double by_wheels = moving_s(run.odometry, [](const auto&) { return true; }),
                by_truth = moving_s(run.truth, [](const recording::TruthSample&at) { return at.valid; });
   if (!(by_wheels > 0 && by_truth > 0)) return;
-  if (by_wheels < kSeveral * by_truth && by_truth < kSeveral * by_wheels) return;
+  if (by_wheels < kSeveral * by_truth && by_truth < kMany * by_wheels) return;
   const bool of_wheels = &assumed == &wheels;
   const std::string own = fmt::format("{:.3g}", of_wheels ? by_wheels : by_truth),
                     other = fmt::format("{:.3g}", of_wheels ? by_truth : by_wheels);
@@ -102,10 +133,10 @@ void require_turning_wheels(const std::string& name, const recording::Run& run,
     throw Error("the " + side + " wheel never turns: check its encoder, and which column or joint it is",
                 ImportProblem::wheel_stands, {name, side});
   }
-  if (ways.same && turned > kTurned_rad)
+  const double count_m = floor.wheels_path_m / (static_cast<double>(ways.left + ways.right) / 2);
+  if (ways.same && turned > kTurned_rad && !may_go_straight(run, count_m))
     throw Error("both wheels do exactly the same while the robot turns: one of them stands in both places",
                 ImportProblem::wheels_equal, {name});
-  const double count_m = floor.wheels_path_m / (static_cast<double>(ways.left + ways.right) / 2);
   const double as_steps_m = count_m * static_cast<double>(ways.as_steps);
   constexpr double kHardly = 0.2, kSame = 2.5;
   if (floor.path_m > kMoved_m && floor.wheels_path_m < kHardly * floor.path_m &&

@@ -15,13 +15,13 @@ struct AssumedTimeUnit {
 
 /// Throws astro::Error if the ground truth of a drive moved and
 ///   a wheel, or both, never turned;
-///   both wheels did exactly the same although the robot turned;
+///   both wheels did exactly the same although the robot turned, wherever in the truth their recording lies;
 ///   the wheels hardly moved, but would have gone the way of the truth if each sample were the travel since the one before.
 void require_turning_wheels(const std::string& name, const recording::Run& run,
                             const truth::FloorFindings& floor);
 
 /// Throws astro::Error if a unit of time that was assumed, in the wheels' file or in that of the truth, makes the drive several
-/// times as long as it is by the other file.
+/// times as long as it is by the other file, or many times if the truth is the longer one.
 void require_times_alike(const recording::Run& run, const AssumedTimeUnit& wheels,
                          const AssumedTimeUnit& truth);
 

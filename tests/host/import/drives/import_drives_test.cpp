@@ -165,6 +165,29 @@ TEST_F(Import, WheelsThatCannotBeWhatTheyAreSaidToBeAreTold) {
             Kind(ImportProblem::per_interval_likely));
 }
 
+TEST_F(Import, WheelsThatWereCutBeforeTheFirstTurnAreNotSaidToTurn) {
+  Trajectory run = drives()[0];
+  std::erase_if(run.wheels, [](const auto& at) { return at.time_s > 6; });  // the first side takes 7.7 s
+  for (calibration::WheelSample& at : run.wheels) at.right_m = at.left_m;
+  const DriveFiles pair{test::write_counts(at("w"), run), test::write_tum(at("t"), run)};
+  EXPECT_NO_THROW(import_drives(std::vector{pair}, choices()));
+}
+
+TEST_F(Import, ATrackerThatWentOnForSeveralDrivesIsNoReasonToDoubtTheUnitOfTheTimes) {
+  simulation::study::Course course;
+  for (int i = 0; i < 6; ++i)
+    for (const simulation::study::Leg& leg : simulation::study::square_course(1, Sense::ccw))
+      course.push_back(leg);
+  Trajectory run = simulation::study::synthetic_drive(course, calibration::astro_drive(), "d", 6);
+  std::erase_if(run.wheels, [](const auto& at) { return at.time_s < 60 || at.time_s > 87; });
+  test::write_lines(at("w"), "time,left_ticks,right_ticks\n", run.wheels, [](const auto& sample) {
+    return fmt::format("{:.6f},{},{}", sample.time_s, std::llround(sample.left_m / test::kMetresPerCount),
+                       std::llround(sample.right_m / test::kMetresPerCount));
+  });
+  const DriveFiles pair{at("w"), test::write_tum(at("t"), run)};
+  EXPECT_NO_THROW(import_drives(std::vector{pair}, choices()));
+}
+
 TEST_F(Import, FindsTheSameWhateverTheFormatsOfTheWheels) {
   const WheelFactors expected = by_counts_and_tum();
   const auto tum = [](auto path, auto& run) { return test::write_tum(path, run); };
