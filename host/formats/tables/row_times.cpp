@@ -7,7 +7,6 @@
 #include <span>
 
 #include "host/base/order_statistics.hpp"
-#include "host/base/sample_times.hpp"
 
 namespace astro::tables {
 namespace {

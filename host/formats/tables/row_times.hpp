@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/sample_times.hpp"
 
 /// What is odd about the times of a table's rows, and what can be done about it.
 namespace astro::tables {
@@ -49,11 +50,9 @@ class RowTimes {
   template <class Sample>
   SettledTimes settle(std::vector<Sample>& samples, const std::string& what,
                       std::vector<Remark>& remarks) const {
-    std::vector<std::int64_t> times_ns;
-    times_ns.reserve(samples.size());
-    for (const Sample& sample : samples) times_ns.push_back(sample.time_ns);
+    std::vector<std::int64_t> times_ns = times_of(samples);
     SettledTimes settled = settle_times(times_ns, what, remarks);
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i].time_ns = times_ns[i];
+    set_times(samples, times_ns);
     return settled;
   }
 

@@ -136,6 +136,7 @@ class FieldWheels {
     Topic& topic = topics_[at(side)];
     const std::string& name = side == Side::left ? source_.left.topic : source_.right.topic;
     Values values;
+    std::vector<std::int64_t> arrivals_ns;
     values.reserve(topic.readings.size());
     for (const Reading& reading : topic.readings) {
       if (topic.stamped && topic.stamps.is_missing(reading.stamp_ns)) continue;
@@ -144,10 +145,11 @@ class FieldWheels {
       // The wheel of the other topic stands, so that nothing is made continuous there.
       if (!one_topic_) (side == Side::left ? sample.right : sample.left) = 0;
       values.push_back(sample);
+      if (topic.stamped) arrivals_ns.push_back(reading.log_time_ns);
     }
     topic.readings = {};
     if (topic.stamped) topic.stamps.remark("messages of " + name, track_.remarks);
-    order_by_time(values, "messages of " + name, track_.remarks);
+    order_by_time(values, arrivals_ns, "messages of " + name, track_.remarks);
     return values;
   }
 

@@ -133,6 +133,7 @@ class JointWheels {
     }
     const bool stamped = track_.clock == WheelClock::stamp;
     if (stamped && stamps_.is_missing(state.time_ns)) return;
+    if (stamped) arrivals_ns_[positions ? 1 : 0].push_back(log_time_ns);
     for (std::size_t i = 0; i < places.size(); ++i)
       (positions ? positions_ : velocities_)[i].push_back(
           {stamped ? state.time_ns : log_time_ns, values[places[i][0]], values[places[i][1]]});
@@ -144,7 +145,7 @@ class JointWheels {
     track.unit = WheelUnit::radians;
     const bool integrates = positions_[pair].empty();
     track.samples = std::move(integrates ? velocities_[pair] : positions_[pair]);
-    order_by_time(track.samples, topic_, track.remarks);
+    order_by_time(track.samples, arrivals_ns_[integrates ? 0 : 1], topic_, track.remarks);
     if (pair > 0) track.remarks.clear();
     if (integrates && !track.samples.empty()) {
       track.samples =
@@ -186,6 +187,7 @@ class JointWheels {
   StampCount stamps_;             // of the messages with the left wheel
   std::size_t without_values_ = 0;
   std::vector<std::vector<WheelSample>> positions_, velocities_;  // of each pair
+  std::array<std::vector<std::int64_t>, 2> arrivals_ns_;          // of the velocities, and of the positions
   WheelTrack track_;
 };
 

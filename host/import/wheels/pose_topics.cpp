@@ -55,7 +55,8 @@ struct ClockOffset {
     most_s = any ? std::max(most_s, offset_s) : offset_s;
     any = true;
   }
-  void remark(std::vector<Remark>& remarks) const {
+  /// `one_clock`: no step of it was taken back.
+  void remark(bool one_clock, std::vector<Remark>& remarks) const {
     constexpr double kOtherClock_s = 3600, kMostSpread_s = 1;
     if (std::abs(least_s) > kOtherClock_s || std::abs(most_s) > kOtherClock_s) {
       const std::string off = std::to_string(std::llround(std::abs(least_s)));
@@ -64,7 +65,7 @@ struct ClockOffset {
                          least_s < 0 ? StampProblem::after_recorder : StampProblem::before_recorder,
                          {off}});
     }
-    if (most_s - least_s > kMostSpread_s) {
+    if (one_clock && most_s - least_s > kMostSpread_s) {
       const std::string spread = std::to_string(std::llround(most_s - least_s));
       remarks.push_back({"the poses reached the recorder with delays that differ by " + spread + " s",
                          StampProblem::delays_differ,
@@ -190,6 +191,7 @@ PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
   const PoseStream& stream = out.stream;
   const bool stamped = stream.stamps.most_are_set();
   ClockOffset offset;
+  std::vector<std::int64_t> arrivals_ns;
   // A pose takes 152 bytes of memory when it is placed on the floor, four times as many as these.
   require_possible(stream.poses, 38, "poses", path);
   out.poses.reserve(stream.poses);
@@ -198,7 +200,10 @@ PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
         (!pose.child_frame.empty() && pose.frame != stream.frame))
       return;
     if (stamped && stream.stamps.is_missing(pose.time_ns)) return;
-    if (stamped) offset.take(log_time_ns, pose.time_ns);
+    if (stamped) {
+      offset.take(log_time_ns, pose.time_ns);
+      arrivals_ns.push_back(log_time_ns);
+    }
     out.poses.push_back({stamped ? pose.time_ns : log_time_ns, pose.x_m, pose.y_m, pose.z_m, pose.qx, pose.qy,
                          pose.qz, pose.qw});
   };
@@ -209,8 +214,9 @@ PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
         {std::to_string(report.unreadable) + " messages do not fit their type and were left out"});
   const std::string what = "poses of " + stream.topic;
   if (stamped) stream.stamps.remark(what, out.remarks);
-  offset.remark(out.remarks);
-  order_by_time(out.poses, what, out.remarks);
+  const std::size_t before = out.remarks.size();
+  order_by_time(out.poses, arrivals_ns, what, out.remarks);
+  offset.remark(out.remarks.size() == before, out.remarks);
   return out;
 }
 

@@ -1,35 +1,41 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "host/base/error.hpp"
 #include "host/base/sample_times.hpp"
-#include "host/import/wheels/stamp_count.hpp"
 
 namespace astro::importing {
 
-/// `times_ns`: of messages in the order in which they came.
-inline void refuse_second_recording(const std::vector<std::int64_t>& times_ns, const std::string& what) {
-  const auto second = second_recording(times_ns);
-  if (!second) return;
-  const std::string after =
-      fmt::format("{:.1f}", 1e-9 * static_cast<double>(times_ns[*second - 1] - times_ns.front()));
-  throw Error(fmt::format("{}: after {} s their stamps begin again: two recordings in one; cut it there",
-                          what, after),
-              StampProblem::begin_again, {what, after});
-}
+/// Takes back the steps of the clock that stamped messages, with a remark for each: where it was set, two stamps are further
+/// apart or nearer than all others, and from there on the messages reach the recorder by as much sooner or later after their
+/// stamps. Messages that are lost or late are none. A clock that was set more than eight times is not used: the messages then have the
+/// times of their arrival.
+///
+/// `arrivals_ns`: when each message reached the recorder, by the recorder's clock.
+/// Steps below 0.06 s are not told from delays.
+void take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const std::int64_t> arrivals_ns,
+                           const std::string& what, std::vector<Remark>& remarks);
+
+/// Throws astro::Error if the times of messages, in the order in which they came, are those of two recordings.
+void refuse_second_recording(const std::vector<std::int64_t>& times_ns, const std::string& what);
 
 /// Mends the times of samples that are in the order in which they came (sample_times.hpp), sorts them by their time_ns, and
 /// drops all but the first of those with equal times, with a remark for each. `what` names the samples, for example "poses of
-/// /tracker". Throws astro::Error of two recordings in one, which sorting would mix.
+/// /tracker". `arrivals_ns` are those of the samples if their times are stamps, otherwise empty. Throws astro::Error of two
+/// recordings in one, which sorting would mix.
 template <class Sample>
-void order_by_time(std::vector<Sample>& samples, const std::string& what, std::vector<Remark>& remarks) {
-  refuse_second_recording(mend_times_of(samples, what, remarks), what);
+void order_by_time(std::vector<Sample>& samples, std::span<const std::int64_t> arrivals_ns,
+                   const std::string& what, std::vector<Remark>& remarks) {
+  std::vector<std::int64_t> times_ns = times_of(samples);
+  refuse_second_recording(times_ns, what);
+  take_clock_steps_back(times_ns, arrivals_ns, what, remarks);
+  mend_times(times_ns, what, remarks);
+  set_times(samples, times_ns);
   if (!std::ranges::is_sorted(samples, {}, &Sample::time_ns)) {
     std::stable_sort(samples.begin(), samples.end(),
                      [](const Sample& a, const Sample& b) { return a.time_ns < b.time_ns; });

@@ -130,9 +130,11 @@ inline Bytes pose_stamped(std::int64_t time_ns, const BodyPose& p) {
 }
 
 /// A folder as `ros2 bag record` makes it: /joint_states and /tracker/pose.
-/// `urdf`: recorded as the robot's description unless it is "".
-inline fs::path write_bag(const fs::path& folder, const calibration::Trajectory& run,
-                          const Frame& frame = z_up, const std::string& urdf = {}) {
+/// `urdf`: recorded as the robot's description unless it is "". `stamp`: what the wheels' clock shows at a time of theirs.
+inline fs::path write_bag(
+    const fs::path& folder, const calibration::Trajectory& run, const Frame& frame = z_up,
+    const std::string& urdf = {},
+    const std::function<double(double)>& stamp = [](double time_s) { return time_s; }) {
   constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
   const auto time_ns = [&](double s) { return kStart_ns + std::llround(1e9 * s); };
   bag::Db3Writer bag(folder);
@@ -143,7 +145,7 @@ inline fs::path write_bag(const fs::path& folder, const calibration::Trajectory&
               ros2::encode_text(urdf));
   for (const auto& at : run.wheels)
     bag.write(joints, time_ns(at.time_s),
-              ros2::encode_joint_state({time_ns(at.time_s),
+              ros2::encode_joint_state({time_ns(stamp(at.time_s)),
                                         {"wheel_left_joint", "wheel_right_joint"},
                                         {2 * at.left_m / kDiameter_m, 2 * at.right_m / kDiameter_m},
                                         {},

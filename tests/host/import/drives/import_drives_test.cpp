@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "host/base/sample_times.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/import/drives/file_inspection.hpp"
 #include "host/recording/rosbag_export.hpp"
@@ -231,6 +232,28 @@ TEST_F(Import, FindsTheSameInABagThatHoldsBoth) {
   expect_like(calibrated(bags, joints).factors, by_counts_and_tum(), kRounding);
   EXPECT_THAT(import_drives(bags, joints).reports[0].summary,
               HasSubstr("of '/tracker/pose' (ROS 2 bag, /tracker/pose of geometry_msgs/msg/PoseStamped)"));
+}
+
+TEST_F(Import, FindsTheSameInABagWhoseWheelsHaveAClockThatIsSet) {
+  std::vector<DriveFiles> list;
+  for (const Trajectory& run : drives()) {
+    const double by_s = run.name == drives()[1].name ? 3600 : run.name == drives()[2].name ? -40 : 0.4;
+    const fs::path path = test::write_bag(at(run.name), run, test::z_up, {},
+                                          [=](double time_s) { return time_s + (time_s > 15 ? by_s : 0); });
+    list.push_back({path, path});
+  }
+  ImportChoices joints = choices();
+  joints.geometry.counts_per_turn.reset();  // joints are angles
+  const ImportedDrives imported = import_drives(list, joints);
+  for (const DriveReport& report : imported.reports)
+    EXPECT_EQ(std::ranges::count_if(report.remarks,
+                                    [](const Remark& remark) {
+                                      return remark.kind == TimesRemark::clock_set_on ||
+                                             remark.kind == TimesRemark::clock_set_back;
+                                    }),
+              1);
+  expect_like(experiment::calibrate(imported.set, {experiment::MethodChoice::Family::ml, {}}).factors,
+              by_counts_and_tum(), kRounding);
 }
 
 TEST_F(Import, FindsTheSameInBagsOfRos1) {
