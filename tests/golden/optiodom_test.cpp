@@ -107,7 +107,9 @@ TEST_F(Optiodom, RawLogsGiveTheirClockAndWhereTheMarkersSat) {
   // Looked at every 50 ms the wheels seem to slip ten times as much as over seconds: errors that come back.
   EXPECT_GT(found.spacing_m, 0.2);
   EXPECT_LT(found.noise.K_m, 6e-7);
-  EXPECT_TRUE(calibration::remarks(found).empty());
+  const std::vector<Remark> remarks = calibration::remarks(found);
+  ASSERT_EQ(remarks.size(), 1U);  // of those 51.2 ms
+  EXPECT_EQ(remarks[0].kind, Kind(calibration::JudgementProblem::clocks_run_apart));
   // Heavier tails than normal: a real tracker has a few bad moments that the noise is not allowed to follow.
   EXPECT_NEAR(found.chi_square / found.degrees_of_freedom, 1.1, 0.15);
 }

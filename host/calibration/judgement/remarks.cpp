@@ -34,7 +34,27 @@ Remark slip_remark(const RunFit& run) {
           JudgementProblem::run_slipped, values};
 }
 
+// Quartz clocks differ by 100 parts in a million at most.
+constexpr double kMostQuartz = 5e-4;
+
+Remark skew_remark(double ppm) {
+  const std::string apart = fmt::format("{:.0f}", std::abs(ppm));
+  return {
+      fmt::format(
+          "the robot's clock runs {} ppm {} than that of the ground truth, and quartz clocks differ by 100: "
+          "the times of one of them are not those of a clock, or the two are not of one drive",
+          apart, ppm < 0 ? "slower" : "faster"),
+      JudgementProblem::clocks_run_apart,
+      {apart}};
+}
+
 }  // namespace
+
+std::optional<double> skew_beyond(const SessionFit& session, double most) {
+  constexpr double kSigmas = 3;
+  if (std::abs(session.clock_skew) - kSigmas * session.clock_skew_se > most) return 1e6 * session.clock_skew;
+  return std::nullopt;
+}
 
 Shown two_wheelbases(double e, double standard_error) {
   constexpr double kPerhaps = 2, kClearly = 3;
@@ -51,6 +71,8 @@ std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
     if (run.outlier) list.push_back(outlier_remark(run));
   for (const RunFit& run : estimate.runs)
     if (!run.slip_events.empty()) list.push_back(slip_remark(run));
+  for (const SessionFit& session : estimate.sessions)
+    if (const auto ppm = skew_beyond(session, kMostQuartz)) list.push_back(skew_remark(*ppm));
   const double ratio = estimate.chi_square / estimate.degrees_of_freedom;
   const char* const noise = noise_given ? "given" : "estimated";
   const JudgementProblem noise_problem =

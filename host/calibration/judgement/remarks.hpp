@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/base/error.hpp"
@@ -9,7 +10,7 @@ namespace astro::calibration {
 
 /// What may spoil a calibration or its judgement. Values: the run (run_stands_out, run_slipped), the runs
 /// (known_by_these_alone); then for each slip the
-/// seconds since the run's start, and the degrees.
+/// seconds since the run's start, and the degrees; of clocks_run_apart by how many parts in a million.
 enum class JudgementProblem {
   too_few_squares,
   single_line,
@@ -19,13 +20,17 @@ enum class JudgementProblem {
   run_stands_out,
   run_slipped,
   given_noise_is_wrong,
-  estimated_noise_is_wrong
+  estimated_noise_is_wrong,
+  clocks_run_apart
 };
 
 /// How far the drives show that gentle arcs turn about another wheelbase than spins: below two standard errors of e, below three,
 /// or more. An e whose error is not known was given by a person, who knows.
 enum class Shown { no, perhaps, clearly };
 Shown two_wheelbases(double e, double standard_error);
+
+/// The skew of a session's clocks in parts in a million, if it is certainly beyond `most`.
+std::optional<double> skew_beyond(const SessionFit& session, double most);
 
 /// One sentence for each problem of an estimate; empty if there is none. `noise_given`: the noise model was given
 /// (MlOptions::noise) and not estimated.

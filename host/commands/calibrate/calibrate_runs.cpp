@@ -100,6 +100,9 @@ constexpr Advice kCalibrateRunsAdvice[] = {
      ": check that they belong to the same drive, with 'astrolabe check-wiring' that no encoder is reversed, "
      "and in files of other programs whether each row of the wheels is the travel since the row before "
      "(--per-interval)"},
+    {experiment::AnalysisProblem::clocks_run_apart,
+     ": check that both files are of one drive, and that their times are seconds of a clock; if they are, "
+     "--clock estimated takes the drive"},
     {calibration::PreparationProblem::clock_unsettled,
      ": record wheels and ground truth from the rest before the drive to the rest after it, or give the "
      "truth the robot's times and --clock known"},

@@ -21,7 +21,8 @@ enum class AnalysisProblem {
   no_calibration,  // values: the factor that is missing, and the file if it is known; no values for a folder
   factors_of_other_wheel,  // value: the file
   no_wheel_separation,
-  no_wheel_radius
+  no_wheel_radius,
+  clocks_run_apart  // values: the run's name, and by how many parts in a million
 };
 
 }  // namespace astro::experiment

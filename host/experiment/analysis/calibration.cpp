@@ -1,5 +1,7 @@
 #include "host/experiment/analysis/calibration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,7 @@
 #include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/end_pose_problem.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
+#include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/noise_of_ends.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/files/method_names.hpp"
@@ -116,6 +119,27 @@ void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
   estimate.se = calibration::errors_of(estimate.covariance, factors);
 }
 
+/// Refuses a single drive whose clocks run further apart than clocks do, because one drive may show as a skew what is none: a
+/// step, or wheels and truth of two drives. Several drives that share it confirm it.
+void require_likely_skew(const calibration::MlEstimate& estimate) {
+  constexpr double kMost = 5e-3;
+  for (std::size_t i = 0; i < estimate.sessions.size(); ++i) {
+    const auto ppm = calibration::skew_beyond(estimate.sessions[i], kMost);
+    const auto is_of_session = [&](const calibration::RunFit& run) {
+      return run.session == static_cast<int>(i);
+    };
+    if (!ppm || std::ranges::count_if(estimate.runs, is_of_session) != 1) continue;
+    const std::string name = std::ranges::find_if(estimate.runs, is_of_session)->name,
+                      apart = fmt::format("{:.0f}", std::abs(*ppm));
+    throw Error(
+        fmt::format(
+            "{}: the clocks of robot and ground truth run {} ppm apart, which clocks do not, and no other "
+            "drive confirms it",
+            name, apart),
+        AnalysisProblem::clocks_run_apart, {name, apart});
+  }
+}
+
 Calibration by_ml(Phases phases, const MlChoice& choice) {
   const std::vector<calibration::Trajectory> runs = all_trajectories(phases);
   const Recordings& first = *phases.front();
@@ -130,6 +154,7 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   if (!choice.noise && std::ranges::all_of(runs, &calibration::Trajectory::has_ends_only))
     ml.options.noise = calibration::noise_of_ends(runs, result.loaded, ml.options);
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
+  if (choice.clock != MlChoice::Clock::estimated) require_likely_skew(ml.estimate);
   ml.session_names = session_names(runs, ml.estimate);
   result.truth_scale_sigma = truth_scale_sigma(phases);
   // If nobody measured a length, the loaded scale stays. The loaded factors are then compared at the estimated scale, so

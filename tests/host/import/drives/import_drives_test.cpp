@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "host/base/sample_times.hpp"
+#include "host/calibration/judgement/remarks.hpp"
+#include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/import/drives/file_inspection.hpp"
 #include "host/recording/rosbag_export.hpp"
@@ -285,6 +287,29 @@ TEST_F(Import, FindsTheSameWhereTheClocksHaveNothingInCommon) {
   const auto since_boot = [](auto path, auto& run) { return test::write_counts(path, run, 86'400); };
   // An epoch time in a double has 0.24 us.
   expect_like(calibrated(files(since_boot, since_1970), choices()).factors, expected, 3 * kRounding);
+}
+
+TEST_F(Import, ClocksThatRunApartAreSaidAndOfASingleDriveRefused) {
+  const auto calibrated_at = [&](double skew, int count, experiment::MlChoice::Clock clock) {
+    simulation::study::DriveModel model = calibration::astro_drive();
+    model.clock_skew = skew;
+    std::vector<DriveFiles> list;
+    for (const Trajectory& run : calibration::squares(model, count, 3))
+      list.push_back({test::write_counts(at("w" + run.name), run), test::write_tum(at("t" + run.name), run)});
+    return experiment::calibrate(import_drives(list, choices()).set,
+                                 {experiment::MethodChoice::Family::ml, {}}, {clock, {}});
+  };
+  const auto said = [](const experiment::Calibration& found) {
+    return std::ranges::count(calibration::remarks(found.ml()->estimate),
+                              Kind(calibration::JudgementProblem::clocks_run_apart), &Remark::kind);
+  };
+  using Clock = experiment::MlChoice::Clock;
+  EXPECT_EQ(said(calibrated_at(2e-4, 4, Clock::automatic)), 0);
+  EXPECT_EQ(said(calibrated_at(-2e-3, 4, Clock::automatic)), 1);
+  EXPECT_EQ(said(calibrated_at(0.01, 4, Clock::automatic)), 1);
+  EXPECT_EQ(told_by([&] { calibrated_at(0.01, 1, Clock::automatic); }).kind,
+            Kind(experiment::AnalysisProblem::clocks_run_apart));
+  EXPECT_EQ(said(calibrated_at(0.01, 1, Clock::estimated)), 1);
 }
 
 TEST_F(Import, NamesTheDrivesAfterTheirFiles) {
