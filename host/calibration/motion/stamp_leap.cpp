@@ -37,6 +37,13 @@ Eigen::Array2d speed_mps(const Samples& samples, std::size_t from, int step, dou
          std::abs(samples[to].time_s - samples[from].time_s);
 }
 
+/// Whether the samples after a leap come in half the time that as many take otherwise: those that a link held back.
+bool catches_up(const auto& samples, std::size_t after, double late_s, double usual_s) {
+  const auto held_back = static_cast<std::size_t>(std::max(2.0, std::ceil(late_s / usual_s)));
+  const std::size_t last = std::min(after + held_back, samples.size() - 1);
+  return samples[last].time_s - samples[after].time_s < 0.5 * usual_s * static_cast<double>(last - after);
+}
+
 }  // namespace
 
 std::optional<StampLeap> find_leap(const Trajectory& run, const ClockStep& step, const ClockFit& clock) {
@@ -73,6 +80,7 @@ std::optional<StampLeap> find_leap_without_way(const Trajectory& run, double whe
     for (std::size_t i = 1; i < samples.size(); ++i) {
       const double late_s = samples[i].time_s - samples[i - 1].time_s - usual_s;
       if (late_s < std::max({kShortestLeap_s, 1.5 * usual_s, found ? found->by_s : 0})) continue;
+      if (catches_up(samples, i, late_s, usual_s)) continue;
       const Eigen::Array2d before = speed_mps(samples, i - 1, -1, wheelbase_m),
                            after = speed_mps(samples, i, 1, wheelbase_m);
       const double speed = mean_of_both(before + after) / 2;

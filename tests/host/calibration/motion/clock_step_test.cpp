@@ -127,6 +127,24 @@ TEST(ClockStep, LostSamplesAreNone) {
   }
 }
 
+TEST(ClockStep, SamplesThatALinkHeldBackAreNone) {
+  for (const StudyDrive& drive : study_drives())
+    for (const double held_s : {0.08, 0.1, 0.12, 0.15, 0.2}) {
+      Trajectory run = drive.run;
+      const auto hold_back = [&](auto& samples) {
+        const double until_s =
+            samples.front().time_s + 0.55 * (samples.back().time_s - samples.front().time_s) + held_s;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+          if (samples[i].time_s > until_s - held_s && samples[i].time_s < until_s)
+            samples[i].time_s = std::max(until_s, samples[i - 1].time_s + 2e-4);
+      };
+      hold_back(run.truth);
+      hold_back(run.wheels);
+      const auto leap = leap_in(run);
+      EXPECT_FALSE(leap) << drive.name << ", " << held_s << " s: " << leap->by_s << " s";
+    }
+}
+
 TEST(ClockStep, WheelsThatAreCutWhileTheRobotMovesAreNone) {
   int looked_at = 0;
   for (const StudyDrive& drive : study_drives())
