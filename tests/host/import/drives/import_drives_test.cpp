@@ -395,6 +395,23 @@ TEST_F(Directions, AGivenAxisAgainstTheWheelsIsRefused) {
               Tells(ImportProblem::turns_against_stated_up, "w"));
 }
 
+TEST_F(Import, SquaresOfPositionsAloneTurnAsTheWheelsDo) {
+  for (const double side_m : {1.5, 2.23, 2.55, 2.86})
+    for (const double rate_hz : {60.0, 97.0, 112.0})
+      for (const Sense sense : {Sense::cw, Sense::ccw}) {
+        simulation::study::DriveModel model = calibration::astro_drive();
+        model.truth_rate_hz = rate_hz;
+        model.headings = false;
+        const Trajectory run = simulation::study::synthetic_drive(
+            simulation::study::square_course(side_m, sense), model, "square", 3);
+        test::write_lines(at("t"), "time_s,x_m,y_m\n", run.truth, [](const auto& sample) {
+          return fmt::format("{:.6f},{:.5f},{:.5f}", sample.time_s, sample.x_m, sample.y_m);
+        });
+        const DriveFiles pair{test::write_counts(at("w"), run), at("t")};
+        EXPECT_NO_THROW(import_drives(std::vector{pair}, choices())) << side_m << " m, " << rate_hz << " Hz";
+      }
+}
+
 TEST_F(Import, SaysWhichSizeIsMissing) {
   const std::vector<DriveFiles> pair{
       {test::write_counts(at("w.csv"), drives()[0]), test::write_tum(at("t.tum"), drives()[0])}};
