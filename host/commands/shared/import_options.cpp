@@ -99,6 +99,7 @@ ImportChoices choices_of(const ImportOptions& options) {
   ImportChoices choices;
   choices.geometry = geometry_of(options);
   choices.wheels.table = options.table;
+  choices.wheels.bag.counter_range = options.table.counter_range;
   choices.wheels.bag.topic = options.wheels_topic;
   choices.wheels.bag.joints = choices.geometry.joints;
   if (const auto joints = joints_in(options.joints); !joints.empty())

@@ -28,9 +28,8 @@ bool any_text(const Files& files) {
                              [](const fs::path& path) { return is_missing(path) || !bag::is_bag(path); });
 }
 
-/// --joints does not apply to a recording of ours, which contains the wheels, unless a topic of joints is
-/// named.
-bool any_with_joints(const ImportOptions& options) {
+/// --joints does not apply to a recording of ours, which contains the wheels, unless a topic is named.
+bool any_bag_of_others(const ImportOptions& options) {
   return std::ranges::any_of(options.wheels, [&](const fs::path& path) {
     return is_missing(path) ||
            (bag::is_bag(path) && (!options.wheels_topic.empty() || !importing::is_own_recording(path)));
@@ -52,6 +51,7 @@ std::vector<Choice> choices_in(const ImportOptions& options) {
   constexpr const char *kNoTable = "none of the files of wheels is a table",
                        *kNoBagOfWheels = "none of the files of wheels is a bag of another program",
                        *kNoBagOfPoses = "none of the files of ground truth is a bag";
+  const auto others = [](const ImportOptions& all) { return any_text(all.wheels) || any_bag_of_others(all); };
   const auto tables = [](const ImportOptions& all) { return any_text(all.wheels); };
   const auto bags_of_wheels = [](const ImportOptions& all) { return any_bag(all.wheels); };
   const auto bags_of_poses = [](const ImportOptions& all) { return any_bag(all.truth); };
@@ -60,11 +60,12 @@ std::vector<Choice> choices_in(const ImportOptions& options) {
   const auto always = [](const ImportOptions&) { return true; };
   return {{"--wheel-columns", !options.table.columns.empty(), tables, kNoTable},
           {"--per-interval", options.table.per_interval, tables, kNoTable},
-          {"--counter-range", options.table.counter_range.has_value(), tables, kNoTable},
+          {"--counter-range", options.table.counter_range.has_value(), others,
+           "the files of wheels are our own recordings"},
           {"--truth-columns", !options.truth_columns.empty(), takes, "no file of ground truth is a table"},
           {"--wheels-topic", !options.wheels_topic.empty(), bags_of_wheels, kNoBagOfWheels},
           {"--wheels-unit", !options.wheels_unit.empty(), bags_of_wheels, kNoBagOfWheels},
-          {"--joints", !options.joints.empty(), any_with_joints, kNoBagOfWheels},
+          {"--joints", !options.joints.empty(), any_bag_of_others, kNoBagOfWheels},
           {"--truth-topic", !options.truth_topic.empty(), bags_of_poses, kNoBagOfPoses},
           {"--truth-frames", !options.frames.empty(), bags_of_poses, kNoBagOfPoses},
           {"--body", !options.body.empty(), takes, "all files of ground truth are bags"},

@@ -291,10 +291,13 @@ PairedDrive paired(const std::string& name, const DriveFiles& files, const Impor
 class AllDrives {
  public:
   AllDrives(std::span<const DriveFiles> files, const ImportChoices& choices)
-      : files_(files), choices_(choices), geometry_(choices.geometry), names_(names_of(files)) {}
+      : files_(files),
+        choices_(files.size(), choices),
+        geometry_(choices.geometry),
+        names_(names_of(files)) {}
 
   std::vector<PairedDrive> read() {
-    for (std::size_t i = 0; i < files_.size(); ++i) read(i, choices_);
+    for (std::size_t i = 0; i < files_.size(); ++i) read(i);
     take_range_of_others();
     take_up_axis_of_others();
     std::vector<PairedDrive> drives;
@@ -312,8 +315,8 @@ class AllDrives {
            kind == ImportProblem::leaps;
   }
 
-  void read(std::size_t i, const ImportChoices& choices) try {
-    drives_[i] = paired(names_[i], files_[i], choices, geometry_);
+  void read(std::size_t i) try {
+    drives_[i] = paired(names_[i], files_[i], choices_[i], geometry_);
     failed_[i].reset();
   } catch (const Error& error) {
     if (error.kind() != truth::FloorProblem::no_up_axis && !is_of_counter(error.kind())) throw;
@@ -329,16 +332,26 @@ class AllDrives {
       range = drive->counter_range;
     }
     if (!range) return;
-    ImportChoices as_others = choices_;
-    as_others.wheels.table.counter_range = range;
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-      const bool doubtful = failed_[i] ? is_of_counter(failed_[i]->kind()) : has_joined_restart(*drives_[i]);
-      if (doubtful) try {
-          read(i, as_others);
-        } catch (const Error& error) {
-          if (error.kind() != CounterProblem::beyond_range) throw;
-        }
+    for (std::size_t i = 0; i < files_.size(); ++i)
+      if (failed_[i] ? is_of_counter(failed_[i]->kind()) : has_joined_restart(*drives_[i]))
+        read_with_range(i, *range);
+  }
+
+  /// A range that does not fit this drive is not its own, and leaves it as it was.
+  void read_with_range(std::size_t i, double range) {
+    ImportChoices before = choices_[i];
+    choices_[i].wheels.table.counter_range = choices_[i].wheels.bag.counter_range = range;
+    std::optional<PairedDrive> first = std::exchange(drives_[i], std::nullopt);
+    std::optional<Error> why = failed_[i];
+    try {
+      read(i);
+      if (drives_[i] || !first) return;
+    } catch (const Error& error) {
+      if (!first && error.kind() != CounterProblem::beyond_range) throw;
     }
+    choices_[i] = std::move(before);
+    drives_[i] = std::move(first);
+    failed_[i] = std::move(why);
   }
 
   static bool has_joined_restart(const PairedDrive& drive) {
@@ -352,13 +365,13 @@ class AllDrives {
     const auto shows =
         std::find_if(drives_.begin(), drives_.end(), [](const auto& drive) { return drive.has_value(); });
     if (shows == drives_.end()) return;
-    ImportChoices as_others = choices_;
-    as_others.floor.up = (*shows)->report.floor.up;
-    const std::string axis = truth::axis_text(*as_others.floor.up),
+    const truth::Direction3 up = (*shows)->report.floor.up;
+    const std::string axis = truth::axis_text(up),
                       from = names_[static_cast<std::size_t>(shows - drives_.begin())];
     for (std::size_t i = 0; i < files_.size(); ++i) {
       if (!failed_[i] || failed_[i]->kind() != truth::FloorProblem::no_up_axis) continue;
-      read(i, as_others);
+      choices_[i].floor.up = up;
+      read(i);
       if (failed_[i]) continue;
       drives_[i]->report.remarks.push_back(
           {"it does not show which axis points up; " + axis + " is taken, as in " + from,
@@ -368,7 +381,7 @@ class AllDrives {
   }
 
   std::span<const DriveFiles> files_;
-  const ImportChoices& choices_;
+  std::vector<ImportChoices> choices_;  // of each drive
   Geometry geometry_;
   std::vector<std::string> names_;
   std::vector<std::optional<PairedDrive>> drives_ = std::vector<std::optional<PairedDrive>>(files_.size());

@@ -70,7 +70,8 @@ class BagWheels {
 
   WheelTrack read(const WheelSource& source) const {
     const bool fields = source.kind == WheelSource::Kind::fields;
-    WheelTrack track = fields ? wheels_of_fields(path_, source, measure_of(source)) : read_special(source);
+    WheelTrack track = fields ? wheels_of_fields(path_, source, measure_of(source), selection_.counter_range)
+                              : read_special(source);
     if (selection_.measure && !fields)
       track.remarks.push_back(
           {"the unit that was stated is not used: " + source.name() + " has one of its own"});

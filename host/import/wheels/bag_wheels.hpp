@@ -19,6 +19,8 @@ struct BagWheelSelection {
   /// Further wheels on the same sides: a side's travel is the mean of its wheels.
   std::vector<JointPair> further = {};
   std::optional<TravelMeasure> measure = {};  // of fields whose names do not show it, or show it wrongly
+  /// How many different counts a counter has before it starts again; nothing: found from the data.
+  std::optional<double> counter_range = {};
   /// With which the robot computes its odometry; without them odometry is not turned back into wheels.
   std::optional<calibration::WheelFactors> odometry = {};
 };

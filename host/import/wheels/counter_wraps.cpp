@@ -140,8 +140,10 @@ void unwrap_wheel(WheelTrack& track, Wheel wheel, const Range& range, const std:
     sample.*wheel += passes * range.size;
   }
   if (!any) return;
-  if (track.unit == WheelUnit::counts) refuse_fast(track.samples, wheel, range, name, side);
-  track.counter_range = range.size;
+  if (track.unit == WheelUnit::counts) {
+    refuse_fast(track.samples, wheel, range, name, side);
+    track.counter_range = range.size;
+  }
   track.remarks.push_back(
       {"the " + side + " wheel starts again at the end of " + range.name + "; it was made continuous",
        WheelRemark::continued,

@@ -16,7 +16,8 @@ enum class CounterProblem { starts_again, begins_again, range_unknown, beyond_ra
 /// signed or not, or of any other number of counts; and angles in [0, 2 pi) or [-pi, pi). A wheel is taken to wrap if all its
 /// values are in such a range and it jumps by more than half of the range at least once; in a range that is not of 16 or 32
 /// bits, only if it comes to both ends each time and the sizes of the jumps fit. Such a wheel must move less than half the range
-/// between two samples. Adds a remark for each wheel that wraps, and sets track.counter_range. Resets to zero are joined
+/// between two samples. Adds a remark for each wheel that wraps, and sets track.counter_range if they
+/// are counts. Resets to zero are joined
 /// (restarts.hpp), also of travel in metres, which has no range.
 ///
 /// `range`  how many different counts there are, if somebody knows.

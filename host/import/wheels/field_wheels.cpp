@@ -30,10 +30,12 @@ double value_between(const Values& samples, std::size_t after, double WheelSampl
 
 class FieldWheels {
  public:
-  FieldWheels(const std::filesystem::path& path, const WheelSource& source, const TravelMeasure& measure)
+  FieldWheels(const std::filesystem::path& path, const WheelSource& source, const TravelMeasure& measure,
+              std::optional<double> counter_range)
       : path_(path),
         source_(source),
         measure_(measure),
+        counter_range_(counter_range),
         one_topic_(source.left.topic == source.right.topic) {}
 
   WheelTrack read() {
@@ -158,7 +160,8 @@ class FieldWheels {
     WheelTrack track;
     track.unit = measure_.unit;
     track.samples = std::move(values);
-    unwrap(track, path_.string() + ": " + topic);
+    unwrap(track, path_.string() + ": " + topic, counter_range_);
+    if (track.counter_range) track_.counter_range = track.counter_range;
     track_.remarks.insert(track_.remarks.end(), track.remarks.begin(), track.remarks.end());
     return std::move(track.samples);
   }
@@ -185,6 +188,7 @@ class FieldWheels {
   const std::filesystem::path& path_;
   const WheelSource& source_;
   const TravelMeasure& measure_;
+  const std::optional<double> counter_range_;
   const bool one_topic_;
   std::map<const bag::BagTopic*, TopicReader> readers_;
   std::uint64_t unreadable_ = 0, without_values_ = 0;
@@ -195,8 +199,8 @@ class FieldWheels {
 }  // namespace
 
 WheelTrack wheels_of_fields(const std::filesystem::path& path, const WheelSource& source,
-                            const TravelMeasure& measure) {
-  return FieldWheels(path, source, measure).read();
+                            const TravelMeasure& measure, std::optional<double> counter_range) {
+  return FieldWheels(path, source, measure, counter_range).read();
 }
 
 }  // namespace astro::importing

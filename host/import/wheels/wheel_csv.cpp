@@ -109,6 +109,7 @@ class WheelRows {
     for (Wheels& pair : pairs_) {
       WheelTrack one = track_of(std::move(pair));
       pair = std::move(one.samples);
+      if (one.counter_range) track.counter_range = one.counter_range;
       track.remarks.insert(track.remarks.end(), one.remarks.begin(), one.remarks.end());
     }
     track.samples =

@@ -61,7 +61,7 @@ struct WheelTrack {
   std::vector<Remark> remarks;          // what was inferred or left out
   ReadColumns columns;                  // of a table
   JointPair joints;                     // of a bag: those of the wheels
-  std::optional<double> counter_range;  // at whose end a wheel started again
+  std::optional<double> counter_range;  // at whose end a wheel started again; of counts only
   std::string odometry;  // of a bag: the topic from whose poses the wheels were worked out, otherwise ""
 };
 

@@ -57,6 +57,9 @@ TEST_F(UnusedChoices, AboutOtherKindsOfFilesAreRefusedByName) {
   given.table.per_interval = true;
   EXPECT_EQ(refused(given), "--per-interval" + no_table);
   given = bag;
+  given.table.counter_range = 9'000;
+  EXPECT_EQ(refused(given), "") << "counters of bags start again, too";
+  given = bag;
   given.body = "ASTRO";
   EXPECT_EQ(refused(given), "--body does not apply here: all files of ground truth are bags");
   given = text;

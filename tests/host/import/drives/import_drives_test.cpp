@@ -476,6 +476,61 @@ TEST_F(Import, RefusesACounterThatStartsAgain) {
               Tells(CounterProblem::range_unknown, at("w.csv").string(), "left", "26436", "26438"));
 }
 
+/// Counters of 0 to 8999, of which every n-th row was logged.
+fs::path write_counts_to_8999(const fs::path& path, const Trajectory& run, std::size_t n) {
+  std::ofstream file(path);
+  file << "time_s,left_counts,right_counts\n";
+  const auto shown = [](double travel_m) {
+    constexpr long kRange = 9'000;
+    const long count = std::lround(travel_m / test::kMetresPerCount) % kRange;
+    return count < 0 ? count + kRange : count;
+  };
+  for (std::size_t i = 0; i < run.wheels.size(); i += n)
+    file << fmt::format("{:.6f},{},{}\n", run.wheels[i].time_s, shown(run.wheels[i].left_m),
+                        shown(run.wheels[i].right_m));
+  return path;
+}
+
+TEST_F(Import, ASlowLogTakesTheRangeOfItsCounterFromTheOthers) {
+  constexpr std::size_t kSlow = 80;  // a row in 0.8 s
+  const std::vector<DriveFiles> slow{
+      {write_counts_to_8999(at("slow"), drives()[0], kSlow), test::write_tum(at("t0"), drives()[0])}};
+  EXPECT_EQ(told_by([&] { import_drives(slow, choices()); }).kind, Kind(CounterProblem::starts_again));
+  std::vector<DriveFiles> files = slow;
+  for (int i = 1; i < 3; ++i) {
+    const Trajectory& run = drives()[static_cast<std::size_t>(i)];
+    files.push_back({write_counts_to_8999(at(fmt::format("w{}", i)), run, 1),
+                     test::write_tum(at(fmt::format("t{}", i)), run)});
+  }
+  const std::vector<recording::OdometrySample> odometry =
+      import_drives(files, choices()).set.runs[0].odometry;
+  const calibration::WheelSample last = drives()[0].wheels[kSlow * (odometry.size() - 1)];
+  EXPECT_EQ(odometry.back().left_counts - odometry.front().left_counts,
+            std::lround(last.left_m / test::kMetresPerCount));
+  EXPECT_EQ(odometry.back().right_counts - odometry.front().right_counts,
+            std::lround(last.right_m / test::kMetresPerCount));
+}
+
+/// In a range of 9000, 5000 to 0 is neither motion nor the end, but a controller that was reset goes from anywhere to 0.
+TEST_F(Import, ADriveThatCanBeReadIsKeptWhereTheRangeOfTheOthersDoesNotFitIt) {
+  constexpr double kRadius_m = 0.3, kAngle_rad = 1.8, kReset_m = 5'000 * test::kMetresPerCount;
+  const Trajectory arc = simulation::study::synthetic_drive(
+      simulation::study::circle_course(kRadius_m, kAngle_rad), calibration::astro_drive(), "arc", 7);
+  Trajectory reset = arc;
+  std::optional<calibration::WheelSample> at_reset;
+  for (calibration::WheelSample& sample : reset.wheels) {
+    if (!at_reset && sample.right_m > kReset_m) at_reset = sample;
+    if (!at_reset) continue;
+    sample.left_m -= at_reset->left_m;
+    sample.right_m -= at_reset->right_m;
+  }
+  const std::vector<DriveFiles> files{
+      {test::write_counts(at("reset"), reset), test::write_tum(at("t0"), arc)},
+      {write_counts_to_8999(at("w1"), drives()[1], 1), test::write_tum(at("t1"), drives()[1])}};
+  EXPECT_THAT(import_drives(files, choices()).reports[0].remarks,
+              Contains(testing::Field(&Remark::kind, Kind(WheelRemark::restart_joined))));
+}
+
 TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {
   ImportChoices wrong = choices();
   wrong.truth.length_unit = "cm";

@@ -1,4 +1,5 @@
 #include "host/import/wheels/bag_wheels.hpp"
+#include "host/import/wheels/counter_wraps.hpp"
 
 #include <gmock/gmock.h>
 
@@ -133,6 +134,20 @@ TEST_F(BagWheels, CountersOfTwoTopicsAreMadeContinuousBeforeTheyAreJoined) {
   ASSERT_EQ(track.samples.size(), 5U);
   EXPECT_EQ(track.samples.back().left - track.samples.front().left, 2000);
   EXPECT_NEAR(track.samples.back().right - track.samples.front().right, -1600, 1e-3);
+  EXPECT_EQ(track.counter_range, 65'536) << "another drive may need it";
+}
+
+TEST_F(BagWheels, ARangeOfCountersThatTheMessagesDoNotShowCanBeStated) {
+  std::vector<Sent> sent;
+  for (int i = 0; i < 30; ++i)
+    for (const char* topic : {"/left_ticks", "/right_ticks"})
+      sent.push_back(int32(topic, kSecond_ns + i * 50'000'000, 400 * i % 7'919));
+  const fs::path path = mcap(sent);
+  EXPECT_EQ(support::told_by([&] { wheels_in_bag(path); }).kind, Kind(CounterProblem::range_unknown));
+  BagWheelSelection selection;
+  selection.counter_range = 7'919;
+  const std::vector<WheelSample> samples = wheels_in_bag(path, selection).samples;
+  EXPECT_EQ(samples.back().left - samples.front().left, 29 * 400);
 }
 
 TEST_F(BagWheels, AFloatNeedsAUnit) {
