@@ -224,7 +224,8 @@ LostSamples mark_lost(BodyTrack& track) {
   lost.absent = static_cast<std::size_t>(
       std::count_if(samples.begin(), samples.end(), [](const TrackedPose& s) { return !s.valid; }));
   const Values digits = last_digits(samples);
-  lost.at_zero = mark_at_zero(samples);
+  const bool ends_only = samples.size() == 2;  // a person who measures them puts the origin at the start
+  if (!ends_only) lost.at_zero = mark_at_zero(samples);
   const bool noisy = is_noisy(samples, digits);
   lost.repeated = mark_repeated(samples, digits, noisy);
   if (noisy) lost.filled = mark_filled(samples, digits);

@@ -9,8 +9,9 @@ namespace astro::truth {
 
 /// Samples by the reason for which they are not valid.
 struct LostSamples {
-  std::size_t absent = 0;    // marked in the file itself: empty cells, zeros
-  std::size_t at_zero = 0;   // exactly at the origin, while the body was elsewhere before and after
+  std::size_t absent = 0;  // marked in the file itself: empty cells, zeros
+  std::size_t at_zero =
+      0;  // exactly at the origin, while the body was elsewhere before or after; not of two samples
   std::size_t repeated = 0;  // the last pose once more to the last digit, while the body moved
   std::size_t filled = 0;    // on an exactly straight line in time: a gap that a program filled
   std::size_t jumped = 0;    // for a moment somewhere else: a marker that was taken for another

@@ -42,6 +42,17 @@ TEST(LostTracking, ACleanDriveLosesNothing) {
   }
 }
 
+TEST(LostTracking, AStartThatAPersonCallsZeroIsNoLoss) {
+  BodyTrack ends;
+  ends.samples.resize(2);
+  ends.samples[0].pose.qw = 1;
+  ends.samples[1] = {.time_ns = 1'000'000'000, .pose = {.x_m = 4.02, .y_m = 0.11, .qw = 1}};
+  EXPECT_EQ(mark_lost(ends).all(), 0U);
+  ends.samples.push_back(ends.samples[1]);
+  ends.samples[2].time_ns = 2'000'000'000;
+  EXPECT_EQ(mark_lost(ends).at_zero, 1U) << "a tracker does not begin there by chance";
+}
+
 TEST(LostTracking, APoseHeldWhileTheBodyMovesIsLost) {
   BodyTrack track = drive(1e-4);
   for (std::size_t i = 301; i < 320; ++i) track.samples[i].pose = track.samples[300].pose;
