@@ -99,8 +99,7 @@ std::vector<RunFit> summarise_runs(const MlFit& fit, std::span<const Disagreemen
     }
     run.chi_square = fit.sums()[i].chi_square;
     run.degrees_of_freedom = fit.sums()[i].degrees_of_freedom;
-    if (prepared.source->has_ends_only())
-      run.degrees_of_freedom -= 3;  // its start is fitted to one of two poses
+    if (prepared.source->ends_only) run.degrees_of_freedom -= 3;  // its start is fitted to one of two poses
     run.disagreement = found[i].chi_square;
     run.disagreement_dof = found[i].degrees_of_freedom;
     run.outlier = outlier[i];
@@ -213,7 +212,7 @@ MlEstimate summarise(MlFit fit) {
     estimate.degrees_of_freedom += run.degrees_of_freedom;
   }
   estimate.ends_only =
-      std::ranges::all_of(fit.runs(), [](const PreparedRun& run) { return run.source->has_ends_only(); });
+      std::ranges::all_of(fit.runs(), [](const PreparedRun& run) { return run.source->ends_only; });
   if (!estimate.ends_only)
     for (const Motion motion : {Motion::rest, Motion::line, Motion::arc, Motion::spin})
       if (const auto kind = summarise_kind(fit, motion)) estimate.kinds.push_back(*kind);

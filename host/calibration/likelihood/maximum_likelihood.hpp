@@ -102,7 +102,7 @@ struct MlEstimate {
   std::vector<Remark> mended;    // PreparedRuns::mended
   std::vector<KindFit>
       kinds;               // only those that occur, in the order of Motion; none if only ends were measured
-  bool ends_only = false;  // of every run only the poses before and after it (Trajectory::has_ends_only)
+  bool ends_only = false;  // of every run only the poses before and after it (Trajectory::ends_only)
   Eccentricities eccentricities;  // of the wheels; not corrected for
   double dispersion = 1;          // of the runs that are no outliers (agreement.hpp)
   double widening = 1;  // of variances, in all standard errors: the dispersion or more (clustered_dispersion)

@@ -6,7 +6,7 @@
 
 namespace astro::calibration {
 
-/// The noise of drives of which only the ends were measured (Trajectory::has_ends_only). How exact a person reads a tape and two
+/// The noise of drives of which only the ends were measured (Trajectory::ends_only). How exact a person reads a tape and two
 /// marks on the chassis is given by `reading`, because one pose at an end does not tell it from slip. The slip is found: its
 /// usual value, scaled until the ends differ from the fit as much as they should, with a prior of the weight of four readings,
 /// so that two drives that happen to agree do not seem exact.

@@ -32,9 +32,9 @@ struct Trajectory {
   std::string session =
       {};  // runs of equal names share lever arm and clocks; empty: found from the data (sessions.hpp)
 
-  /// Whether only the poses before and after the drive were measured. They hold while the robot rests, so their times do not
-  /// matter.
-  bool has_ends_only() const { return truth.size() == 2; }
+  /// Only the poses before and after the drive were measured: `truth` has these two. They hold while the robot rests, so their
+  /// times do not matter.
+  bool ends_only = false;
 };
 
 /// Pose of the tracked body in the robot frame (x forward, y left, origin midway between the wheels).

@@ -94,13 +94,13 @@ void require_samples(const Trajectory& run, bool clock_known) {
   const auto finite = std::count_if(run.truth.begin(), run.truth.end(), [](const BodySample& sample) {
     return std::isfinite(sample.x_m) && std::isfinite(sample.y_m);
   });
-  const bool both_ends = clock_known && run.has_ends_only() && finite == 2;
+  const bool both_ends = clock_known && run.ends_only && finite == 2;
   if (finite < kFewestSamples && !both_ends)
     throw Error(fmt::format("{} has {} samples of ground truth, and maximum likelihood needs the whole drive",
                             run.name, finite),
                 PreparationProblem::too_little_truth, {run.name, std::to_string(finite)});
   require_wheels(run);
-  if (!run.has_ends_only()) require_times(run.name, "ground truth", run.truth);
+  if (!run.ends_only) require_times(run.name, "ground truth", run.truth);
 }
 
 /// Travel of the centre and rotation between two moments, by roughly right factors.
@@ -232,7 +232,7 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, double wheelba
   prepared.has_headings = mostly_headings(run.truth);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
   prepared.gaps = gaps_of(run, wheelbase_m);
-  if (run.has_ends_only()) {
+  if (run.ends_only) {
     prepared.truth = run.truth;
     prepared.truth.front().time_s = run.wheels.front().time_s + kMargin_s;
     prepared.truth.back().time_s = run.wheels.back().time_s - kMargin_s;
@@ -299,7 +299,7 @@ void classify_motion(PreparedRun& run, std::span<const WheelState> wheels, const
 }
 
 void require_motion(const PreparedRun& run) {
-  if (run.truth.size() < kFewestSamples && !run.source->has_ends_only())
+  if (run.truth.size() < kFewestSamples && !run.source->ends_only)
     throw Error(
         fmt::format("{}: only {} samples of ground truth fall into the time of the drive: check that both "
                     "were recorded together",
@@ -459,7 +459,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
     ready.path_m = way_of_wheels(wheels);
     ready.knots_m = way_of_knots(ready, loaded.b_m);
     require_motion(ready);
-    if (!run.has_ends_only()) require_handedness(ready, clock, loaded);
+    if (!run.ends_only) require_handedness(ready, clock, loaded);
     prepared.runs.push_back(std::move(ready));
     prepared.clocks.push_back(clock);
   }

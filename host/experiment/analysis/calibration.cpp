@@ -151,7 +151,7 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   });
   ml.options.noise = choice.noise;
   ml.noise_given = choice.noise.has_value();
-  if (!choice.noise && std::ranges::all_of(runs, &calibration::Trajectory::has_ends_only))
+  if (!choice.noise && std::ranges::all_of(runs, &calibration::Trajectory::ends_only))
     ml.options.noise = calibration::noise_of_ends(runs, result.loaded, ml.options);
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   if (choice.clock != MlChoice::Clock::estimated) require_likely_skew(ml.estimate);

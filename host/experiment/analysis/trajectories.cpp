@@ -106,6 +106,8 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
   for (const recording::TruthSample& sample : run.truth)
     if (sample.valid && tracker.advances(sample.time_us))
       trajectory.truth.push_back({tracker.seconds(), sample.x_m, sample.y_m, sample.theta_rad});
+  // Two that a tracker had not lost of a whole drive are no ends: the robot moved at their times.
+  trajectory.ends_only = run.truth.size() == 2 && trajectory.truth.size() == 2;
   return trajectory;
 }
 

@@ -20,7 +20,10 @@ using simulation::study::DriveModel;
 
 std::vector<Trajectory> drives_with_ends(const DriveModel& model, std::uint64_t seed) {
   std::vector<Trajectory> runs = varied_drives(model, seed);
-  for (Trajectory& run : runs) run.truth = {run.truth.front(), run.truth.back()};
+  for (Trajectory& run : runs) {
+    run.truth = {run.truth.front(), run.truth.back()};
+    run.ends_only = true;
+  }
   return runs;
 }
 

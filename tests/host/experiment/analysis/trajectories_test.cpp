@@ -78,6 +78,9 @@ TEST(Trajectories, LeaveOutWhatTheTrackerHadLost) {
   ASSERT_EQ(trajectory.truth.size(), 2U);
   EXPECT_NEAR(trajectory.truth[1].time_s - trajectory.wheels[0].time_s, 0.03, 1e-12);
   EXPECT_EQ(trajectory.truth[1].y_m, 5);
+  EXPECT_FALSE(trajectory.ends_only) << "the robot moved at the times of what is left";
+  run.truth.erase(run.truth.begin() + 1);
+  EXPECT_TRUE(trajectory_of(run, "x").ends_only);
 }
 
 TEST(Trajectories, ATapeMeasureAndAFileOfEndPosesFollowNobody) {
