@@ -212,6 +212,7 @@ constexpr Advice kUmbmarkAdvice[] = {
     {experiment::ExperimentProblem::other_robot, ": choose another --out"},
     {experiment::ExperimentProblem::cannot_go_on, ": choose another --out"},
     {experiment::ExperimentProblem::other_factors_loaded, ": load those, or choose another --out"},
+    {experiment::UploadProblem::e_needed, ", as --method robust"},
     {experiment::ExperimentProblem::precision_unknown, ": give --runs in place of --until"},
     {experiment::ExperimentProblem::truth_missing,
      "; the same command goes on with its ground truth, at a terminal or with all answers piped in"},

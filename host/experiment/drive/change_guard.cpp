@@ -65,6 +65,10 @@ std::string shown(const robot::Value& value) {
   return std::get<std::string>(value);
 }
 
+bool knows_e(std::span<const robot::ParameterRow> robot) {
+  return std::ranges::find(robot, "e", &robot::ParameterRow::name) != robot.end();
+}
+
 }  // namespace
 
 calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot) {
@@ -72,8 +76,16 @@ calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot) {
                               "the robot");
 }
 
+void require_e(std::span<const robot::ParameterRow> robot) {
+  if (knows_e(robot)) return;
+  throw Error(
+      "maximum likelihood finds a factor e, and this robot's firmware has no e: update the robot's firmware, "
+      "or choose a method that takes end poses",
+      UploadProblem::e_needed);
+}
+
 ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values) {
-  if (std::ranges::find(robot, "e", &robot::ParameterRow::name) != robot.end()) return values;
+  if (knows_e(robot)) return values;
   if (const double e = number_named(values, "e").value_or(0); e != 0) {
     const std::string number = fmt::format("{:.6g}", e);
     throw Error("the calibration has e = " + number +

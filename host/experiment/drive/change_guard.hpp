@@ -21,12 +21,16 @@ enum class UploadProblem {
   of_other_factors,  // values: a factor, what it was when the calibration was driven, and what it is now
   suspicious,        // values: a factor, and by how many percent it would change; or "e", and both values
   e_unknown_to_firmware,  // value: the calibration's e
+  e_needed
 };
 
 using robot::Change;
 
 /// The factors in force. A firmware that knows no e has e = 0.
 calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot);
+
+/// Throws astro::Error if firmware with these rows has no e, which every fit by maximum likelihood finds.
+void require_e(std::span<const robot::ParameterRow> robot);
 
 /// The values that firmware with these rows understands. Firmware without e turns every arc about b; then e = 0 and kappa0
 /// are left out, because they change nothing there. Throws astro::Error if it has no e and e is not 0.

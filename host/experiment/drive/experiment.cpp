@@ -11,6 +11,7 @@
 #include "host/base/error.hpp"
 #include "host/base/folder_lock.hpp"
 #include "host/base/utc.hpp"
+#include "host/experiment/analysis/trajectories.hpp"
 #include "host/experiment/analysis/until.hpp"
 #include "host/experiment/drive/entered_truth.hpp"
 #include "host/experiment/drive/open_journal.hpp"
@@ -134,6 +135,7 @@ class Session {
   void drive_missing(const std::vector<RunSpec>& specs) {
     if (recorded(specs) == specs.size()) return;
     const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
+    if (is_calibrated_by_ml(specs.front().phase)) require_e(parameters.rows());
     begin_phase(specs.front().phase, loaded_factors(parameters));
     announce(specs);
     std::optional<RunSpec> last;
@@ -144,6 +146,17 @@ class Session {
                     parameters))
         entered_.look_back(specs);
     }
+  }
+
+  /// Whether after this phase factors are found by maximum likelihood, by what is known before it is driven.
+  bool is_calibrated_by_ml(const std::string& phase) const {
+    using Family = MethodChoice::Family;
+    if (phase == phase_names(journal_.plan).back()) return false;
+    recording::RunInfo info;
+    info.truth_source = truth_.name();
+    info.truth_clock = truth_.clock();
+    const Family family = journal_.plan.method.family;
+    return family == Family::ml || (family == Family::automatic && has_moving_truth(info));
   }
 
   std::size_t recorded(const std::vector<RunSpec>& specs) const {

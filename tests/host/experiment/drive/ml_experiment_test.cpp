@@ -17,6 +17,7 @@
 #include "host/recording/run_file.hpp"
 #include "host/robot/parameters/upload.hpp"
 #include "tests/support/base/remarks.hpp"
+#include "tests/support/links/fake_link.hpp"
 #include "tests/support/robots/desk.hpp"
 
 // Experiments with maximum likelihood, the default where cameras follow the robot.
@@ -95,6 +96,24 @@ TEST_F(ExchangedSides, EndTheExperimentAtTheFirstDriveAlsoIfItIsResumed) {
     EXPECT_EQ(told.kind, Kind(calibration::PreparationProblem::mirrored)) << told.sentence;
     EXPECT_EQ(driven_.size(), time == 0 ? 1U : 0U);
   }
+}
+
+/// The firmware of a FakeRobot is one that knows c_R, c_L and b.
+TEST_F(MlExperiment, IsRefusedBeforeTheFirstDriveOfAFirmwareThatKnowsNoE) {
+  test::FakeLink link;
+  robot::Client client(link);
+  client.connect();
+  const auto told = [&](const Plan& plan) {
+    return support::told_by([&] {
+      run_experiment(client, desk_.truth, plan, folder_.path() / std::string(name_of(plan.method)), hooks_);
+    });
+  };
+  Plan plan = small_plan(1);
+  EXPECT_EQ(told(plan).kind, Kind(UploadProblem::e_needed));
+  EXPECT_THAT(driven_, testing::IsEmpty());
+  plan.method = method_named("robust", "average", "exact");
+  EXPECT_NE(told(plan).kind, Kind(UploadProblem::e_needed)) << "end poses find no e";
+  EXPECT_EQ(driven_.size(), 1U);
 }
 
 TEST_F(MlExperiment, IsWhatHappensWhereCamerasFollowTheRobot) {
