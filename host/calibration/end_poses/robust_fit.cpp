@@ -152,12 +152,14 @@ RobustFit fit_ends(std::span<const EndPose> cw_ends, std::span<const EndPose> cc
     const Vector2d step = (sums.curvature / scatter + known).inverse() * (sums.slope / scatter - known * p);
     p += step * std::min(1.0, kLongestStep / step.norm());
     if (!p.allFinite() || p.norm() > 1) fail();
-    if (step.norm() < kSettled)
-      return {std::exp(p(0)), std::exp(p(1)),
-              (sums.information / (kLossOfNormal * scatter) + known).inverse(), scatter};
+    const double fitted = prior ? 0 : 2;
+    if (step.norm() < kSettled) {
+      const double widened = kLossOfNormal * scatter_for_errors(sums.distances, scatter, fitted);
+      return {std::exp(p(0)), std::exp(p(1)), (sums.information / widened + known).inverse(), scatter};
+    }
     // The scatter is fixed after some steps, because a scatter that changes in each step could prevent
     // convergence.
-    if (i < kScatterIterations) scatter = robust_scatter(sums.distances, prior ? 0 : 2);
+    if (i < kScatterIterations) scatter = robust_scatter(sums.distances, fitted);
   }
   fail();
 }

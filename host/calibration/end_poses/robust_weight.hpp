@@ -25,4 +25,9 @@ double robust_weight(const Distance& distance, double scatter);
 /// happen to agree from seeming exact. Without numbers the result is 1.
 double robust_scatter(const std::vector<Distance>& distances, double fitted);
 
+/// The same ratio for standard errors, in which a scatter that is itself known badly counts, too: with it, errors over standard
+/// errors have a mean square of 1, and not only a median. From the mean of the weighted squares, which ten runs show better than
+/// their median. The prior of 1 only raises it: four numbers do not keep a robot that slips more from being known as such.
+double scatter_for_errors(const std::vector<Distance>& distances, double scatter, double fitted);
+
 }  // namespace astro::calibration

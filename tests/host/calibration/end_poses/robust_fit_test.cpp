@@ -100,6 +100,35 @@ TEST(RobustFit, KnowsHowFarItIsOff) {
   }
 }
 
+/// Unlike the mean of the claimed variances above, each error over its own standard error shows whether a single experiment
+/// claims too much.
+TEST(RobustFit, KnowsInEachExperimentHowFarItIsOffHoweverMuchTheRobotSlips) {
+  constexpr int kExperiments = 500;
+  for (const double slip_m : {1e-6, 3e-5})
+    for (const int each : {3, 5})
+      for (const bool headings : {true, false}) {
+        SlippingRobot robot(10, {.slip_m = slip_m});
+        double E_d = 0, E_b = 0;
+        for (int i = 0; i < kExperiments; ++i) {
+          Runs runs = robot.squares(each);
+          for (std::vector<EndPose>* ends : {&runs.cw, &runs.ccw})
+            for (EndPose& end : *ends)
+              if (!headings) end.theta_rad = kNotMeasured;
+          const Estimate found = calibrate(runs, kNominal, kRobust);
+          E_d += std::pow((found.E_d - kThesis_E_d) / found.se.E_d, 2) / kExperiments;
+          E_b += std::pow((found.E_b - kThesis_E_b) / found.se.E_b, 2) / kExperiments;
+        }
+        std::printf("slip %.2g m, %d each, headings %d: errors over standard errors %.2f, %.2f (rms)\n",
+                    slip_m, each, headings, std::sqrt(E_d), std::sqrt(E_b));
+        // An rms of 500 scatters by 4 %, and by more where three runs leave few numbers, so that errors have long tails. A robot
+        // that slips less than usual has larger errors, because of the prior.
+        for (const double one : {std::sqrt(E_d), std::sqrt(E_b)}) {
+          EXPECT_LT(one, each == 3 ? 1.4 : 1.25);
+          EXPECT_GT(one, 0.65);
+        }
+      }
+}
+
 /// What a person makes of an honest end.
 struct Slip {
   const char* name;
