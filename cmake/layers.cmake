@@ -18,7 +18,7 @@ set(ASTRO_LAYERS
   "host/calibration/motion      : host/base"
   "host/calibration/preparation : host/base host/calibration/motion"
   "host/commands/base           : host/base host/console host/robot/port host/simulation/server"
-  "host/commands/calibrate      : host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/calibration/preparation host/commands/base host/commands/shared host/console host/experiment/analysis host/experiment/files"
+  "host/commands/calibrate      : host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/calibration/preparation host/commands/base host/commands/shared host/console host/experiment/analysis host/experiment/files host/formats/tables"
   "host/commands/drive          : common host/base host/commands/base host/commands/shared host/console host/experiment/drive host/motor/bench host/motor/model host/recording host/report host/robot/client host/robot/motion"
   "host/commands/experiment     : host/base host/commands/base host/commands/shared host/commands/simulate host/console host/experiment/analysis host/experiment/drive host/experiment/files host/import/drives host/recording host/report host/robot/motion host/robot/parameters host/simulation/study host/truth/source host/wall"
   "host/commands/live           : host/base host/calibration/motion host/commands/base host/commands/shared host/console host/experiment/analysis host/formats/cdr host/formats/files host/formats/messages host/live/driver host/live/foxglove host/live/ros2 host/recording host/robot/client host/truth/source"

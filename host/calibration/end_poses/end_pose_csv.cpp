@@ -2,190 +2,173 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <string>
+#include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/text/csv_table.hpp"
-#include "host/base/text/degrees.hpp"
+#include "host/formats/tables/column_name.hpp"
+#include "host/formats/tables/table.hpp"
 
 namespace astro::calibration {
 namespace {
 
-struct Unit {
-  std::string_view suffix;
-  double to_si;
+/// An error of an end: its short name, and the words before "err" or "error".
+struct EndError {
+  std::string_view name;
+  std::array<std::string_view, 2> words;
+  tables::Quantity quantity;
+  std::string_view spellings;
 };
-constexpr std::array kLengths{Unit{"mm", 1e-3}, Unit{"cm", 1e-2}, Unit{"m", 1.0}};
-constexpr std::array kAngles{Unit{"rad", 1.0}, Unit{"deg", radians(1)}};
-
-struct Quantity {
-  std::string_view name, alias;
-  std::span<const Unit> units;
-};
-constexpr Quantity kX{"ex", "x_err", kLengths};
-constexpr Quantity kY{"ey", "y_err", kLengths};
-constexpr Quantity kTheta{"etheta", "heading_err", kAngles};
+constexpr EndError kX{"ex", {"x", "x"}, tables::Quantity::length, "ex_mm or ex_cm or ex_m"};
+constexpr EndError kY{"ey", {"y", "y"}, tables::Quantity::length, "ey_mm or ey_cm or ey_m"};
+constexpr EndError kTheta{
+    "etheta", {"heading", "theta"}, tables::Quantity::angle, "etheta_rad or etheta_deg"};
 
 struct Column {
-  std::size_t index = 0;
+  std::size_t at = 0;
   std::string title;
   double to_si = 1;
 };
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
+bool is_named(const tables::ColumnName& title, const EndError& error) {
+  const std::vector<std::string>& words = title.words;
+  if (words.size() == 1) return words[0] == error.name;
+  return words.size() == 2 && (words[0] == error.words[0] || words[0] == error.words[1]) &&
+         (words[1] == "err" || words[1] == "error");
 }
 
-/// "ex_mm or ex_cm or ex_m"
-std::string spellings(const Quantity& quantity) {
-  std::string out;
-  for (const Unit& unit : quantity.units) {
-    out += (out.empty() ? "" : " or ") + std::string(quantity.name) + "_" + std::string(unit.suffix);
+class EndPoses {
+ public:
+  EndPoses(std::string_view text, std::string_view name)
+      : table_(text, name), x_(require(kX)), y_(require(kY)), theta_(find(kTheta)) {
+    const std::vector<std::string>& titles = table_.names();
+    for (std::size_t i = 0; i < titles.size(); ++i)
+      if (tables::column_name(titles[i]).words == std::vector<std::string>{"direction"}) direction_ = i;
   }
-  return out;
-}
 
-std::optional<double> factor_of(const std::string& title, const Quantity& quantity) {
-  for (const std::string_view name : {quantity.name, quantity.alias}) {
-    for (const Unit& unit : quantity.units) {
-      if (title == std::string(name) + "_" + std::string(unit.suffix)) return unit.to_si;
+  EndPoseTable read(std::optional<Sense> wanted) {
+    EndPoseTable out;
+    while (table_.next()) {
+      if (out.poses.size() == kMostRuns)
+        table_.rows().refuse("the table has more rows than anybody measures runs",
+                             EndPoseTableProblem::too_many_rows);
+      require_width();
+      if (direction_) wanted = sense(*direction_, wanted, !out.poses.empty());
+      EndPose pose{number(x_), number(y_), std::numeric_limits<double>::quiet_NaN()};
+      if (theta_ && !table_.cell(theta_->at).empty()) pose.theta_rad = number(*theta_);
+      out.poses.push_back(pose);
+      out.lines.push_back(table_.rows().line());
     }
-  }
-  return std::nullopt;
-}
-
-/// Whether a title names the quantity without a known unit: "ex", "ex_inch", "ex [mm]".
-bool lacks_unit(const std::string& title, const Quantity& quantity) {
-  for (const std::string_view name : {quantity.name, quantity.alias}) {
-    if (!title.starts_with(name)) continue;
-    if (title.size() == name.size() ||
-        std::string_view("_ [(").find(title[name.size()]) != std::string_view::npos) {
-      return true;
+    if (out.poses.empty()) {
+      const std::string name(table_.rows().file());
+      throw Error(name + " has a header and no data rows: it needs one per run below it",
+                  EndPoseTableProblem::no_rows, {name});
     }
+    return out;
   }
-  return false;
-}
 
-std::optional<Column> find_column(const CsvTable& table, const Quantity& quantity, std::string_view name) {
-  std::optional<Column> found;
-  std::string unitless;
-  for (std::size_t i = 0; i < table.header.cells.size(); ++i) {
-    const std::string& title = table.header.cells[i];
-    if (const auto to_si = factor_of(lower_case(title), quantity)) {
-      if (found) {
-        refuse(name, table.header.line,
-               "columns " + found->title + " and " + title + " both give " + std::string(quantity.name) +
-                   ": keep one of them",
-               EndPoseTableProblem::two_columns, {found->title, title});
+ private:
+  static constexpr std::size_t kMostRuns = 100'000;
+
+  [[noreturn]] void refuse_header(const std::string& what, EndPoseTableProblem problem,
+                                  const std::vector<std::string>& more) const {
+    std::vector<std::string> values{std::string(table_.rows().file()),
+                                    std::to_string(std::max(1, table_.line_of_names()))};
+    values.insert(values.end(), more.begin(), more.end());
+    throw Error(values[0] + ", line " + values[1] + ": " + what, problem, values);
+  }
+
+  std::optional<Column> find(const EndError& error) const {
+    std::optional<Column> found;
+    std::string unitless;
+    for (std::size_t i = 0; i < table_.names().size(); ++i) {
+      const std::string title = tables::cut_cell(table_.names()[i]);
+      const tables::ColumnName name = tables::column_name(title);
+      if (!is_named(name, error)) continue;
+      if (!name.unit || name.unit->quantity != error.quantity) {
+        unitless = title;
+        continue;
       }
-      found = Column{i, title, *to_si};
-    } else if (lacks_unit(lower_case(title), quantity)) {
-      unitless = title;
+      if (found)
+        refuse_header("columns " + found->title + " and " + title + " both give " + std::string(error.name) +
+                          ": keep one of them",
+                      EndPoseTableProblem::two_columns, {found->title, title});
+      found = Column{i, title, name.unit->to_si};
     }
+    if (!found && !unitless.empty())
+      refuse_header(
+          "column " + unitless + " does not say its unit, as " + std::string(error.spellings) + " does",
+          EndPoseTableProblem::no_unit, {unitless});
+    return found;
   }
-  if (!found && !unitless.empty()) {
-    refuse(name, table.header.line,
-           "column " + unitless + " does not say its unit, as " + spellings(quantity) + " does",
-           EndPoseTableProblem::no_unit, {unitless});
-  }
-  return found;
-}
 
-Column require_column(const CsvTable& table, const Quantity& quantity, std::string_view name) {
-  if (const auto found = find_column(table, quantity, name)) return *found;
-  refuse(name, table.header.line, "there is no column " + spellings(quantity), EndPoseTableProblem::no_column,
-         {std::string(quantity.name)});
-}
-
-double number(const CsvRow& row, const Column& column, std::string_view name) {
-  const std::string& cell = row.cells[column.index];
-  const std::string where = "column " + column.title + ": ";
-  if (cell.empty())
-    refuse(name, row.line, where + "the cell is empty: write the number or leave the run out",
-           EndPoseTableProblem::empty_cell, {column.title});
-  const char* const end = cell.data() + cell.size();
-  // from_chars, because unlike strtod it does not depend on the locale. It accepts no plus sign, which a
-  // spreadsheet may write.
-  const char* const begin = cell.data() + (cell[0] == '+' && cell.size() > 1 && cell[1] != '-' ? 1 : 0);
-  double value = 0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::invalid_argument || stop != end) {
-    refuse(name, row.line, where + "\"" + cell + "\" is not a number such as -12.5",
-           EndPoseTableProblem::not_a_number, {column.title, cell});
+  Column require(const EndError& error) const {
+    if (auto found = find(error)) return *std::move(found);
+    refuse_header("there is no column " + std::string(error.spellings), EndPoseTableProblem::no_column,
+                  {std::string(error.name)});
   }
-  if (error != std::errc{} || !std::isfinite(value)) {
-    refuse(name, row.line,
-           where + "\"" + cell + "\" is not a finite number: measure it again or leave the run out",
-           EndPoseTableProblem::not_finite, {column.title, cell});
-  }
-  return value * column.to_si;
-}
 
-struct Columns {
-  Column x, y;
-  std::optional<Column> theta;
-  std::optional<std::size_t> direction;
+  /// A number that is cut in two by its decimal comma makes a row longer.
+  void require_width() const {
+    const std::size_t cells = table_.cells().size(), names = table_.names().size();
+    if (cells <= names) return;
+    const auto surplus = table_.cells().subspan(names);
+    if (std::ranges::all_of(surplus, [](std::string_view cell) { return cell.empty(); })) return;
+    const std::string has = std::to_string(cells), named = std::to_string(names);
+    table_.rows().refuse("the row has " + has + " cells and the header " + named +
+                             ": write numbers with a decimal point, or separate the cells by semicolons",
+                         tables::TableProblem::rows_of_other_length, {has, named});
+  }
+
+  [[noreturn]] void refuse_cell(const Column& column, const std::string& what, EndPoseTableProblem problem,
+                                std::vector<std::string> values) const {
+    values.insert(values.begin(), column.title);
+    table_.rows().refuse("column " + column.title + ": " + what, problem, values);
+  }
+
+  double number(const Column& column) const {
+    const std::string_view cell = table_.cell(column.at);
+    if (cell.empty())
+      refuse_cell(column, "the cell is empty: write the number or leave the run out",
+                  EndPoseTableProblem::empty_cell, {});
+    const auto value = tables::cell_number(cell, table_.style());
+    if (!value)
+      refuse_cell(column, tables::shown_cell(cell) + " is not a number such as -12.5",
+                  EndPoseTableProblem::not_a_number, {tables::cut_cell(cell)});
+    return *value * column.to_si;
+  }
+
+  /// `wanted`: that of all runs, from the caller or, if there are any `before`, from these.
+  Sense sense(std::size_t direction, std::optional<Sense> wanted, bool before) const {
+    const std::string cell = tables::cut_cell(table_.cell(direction));
+    const std::vector<std::string> words = tables::column_name(cell).words;
+    const std::optional<Sense> sense = sense_named(words.size() == 1 ? words[0] : "");
+    if (!sense)
+      table_.rows().refuse("column direction: '" + cell + "' is not a direction, which is cw or ccw",
+                           EndPoseTableProblem::no_direction, {cell});
+    if (wanted && sense != wanted && before)
+      table_.rows().refuse(
+          "column direction: the file mixes cw and ccw runs where one direction is wanted: split it",
+          EndPoseTableProblem::both_directions);
+    if (wanted && sense != wanted)
+      table_.rows().refuse("column direction: '" + cell + "', and this is the table of the " +
+                               in_words(*wanted) + " runs: exchange the two tables, or correct the direction",
+                           EndPoseTableProblem::other_direction, {cell});
+    return *sense;
+  }
+
+  tables::Table table_;
+  Column x_, y_;
+  std::optional<Column> theta_;
+  std::optional<std::size_t> direction_;
 };
-
-Columns find_columns(const CsvTable& table, std::string_view name) {
-  Columns out{
-      require_column(table, kX, name), require_column(table, kY, name), find_column(table, kTheta, name), {}};
-  for (std::size_t i = 0; i < table.header.cells.size(); ++i) {
-    if (lower_case(table.header.cells[i]) == "direction") out.direction = i;
-  }
-  if (table.rows.empty()) {
-    throw Error(std::string(name) + " has a header and no data rows: it needs one per run below it",
-                EndPoseTableProblem::no_rows, {std::string(name)});
-  }
-  return out;
-}
-
-EndPose pose(const CsvRow& row, const Columns& columns, std::string_view name) {
-  EndPose out{number(row, columns.x, name), number(row, columns.y, name),
-              std::numeric_limits<double>::quiet_NaN()};
-  if (columns.theta && !row.cells[columns.theta->index].empty())
-    out.theta_rad = number(row, *columns.theta, name);
-  return out;
-}
-
-Sense sense_of(const CsvRow& row, std::size_t direction, std::string_view name) {
-  const std::optional<Sense> sense = sense_named(lower_case(row.cells[direction]));
-  if (!sense) {
-    refuse(name, row.line,
-           "column direction: \"" + row.cells[direction] + "\" is not a direction, which is cw or ccw",
-           EndPoseTableProblem::no_direction, {row.cells[direction]});
-  }
-  return *sense;
-}
 
 }  // namespace
 
 EndPoseTable read_end_poses(std::string_view text, std::string_view name, std::optional<Sense> sense) {
-  const CsvTable table = split_csv(text, name);
-  const Columns columns = find_columns(table, name);
-  EndPoseTable out;
-  for (const CsvRow& row : table.rows) {
-    const auto direction = columns.direction;
-    if (direction && sense_of(row, *direction, name) != sense_of(table.rows[0], *direction, name)) {
-      refuse(name, row.line,
-             "column direction: the file mixes cw and ccw runs where one direction is wanted: split it",
-             EndPoseTableProblem::both_directions);
-    }
-    if (direction && sense && sense_of(row, *direction, name) != *sense)
-      refuse(name, row.line,
-             "column direction: \"" + row.cells[*direction] + "\", and this is the table of the " +
-                 in_words(*sense) + " runs: exchange the two tables, or correct the direction",
-             EndPoseTableProblem::other_direction, {row.cells[*direction]});
-    out.poses.push_back(pose(row, columns, name));
-    out.lines.push_back(row.line);
-  }
-  return out;
+  return EndPoses(text, name).read(sense);
 }
 
 }  // namespace astro::calibration

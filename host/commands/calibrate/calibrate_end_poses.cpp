@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/base/files.hpp"
 #include "host/calibration/end_poses/end_pose_csv.hpp"
 #include "host/calibration/end_poses/odd_run.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
@@ -13,6 +12,7 @@
 #include "host/commands/shared/method_option.hpp"
 #include "host/console/options.hpp"
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/formats/tables/text_file.hpp"
 
 namespace astro::commands {
 namespace {
@@ -33,7 +33,7 @@ struct EndPosesOptions {
 void read_end_poses(const fs::path& file, Sense sense, double side_m,
                     std::vector<calibration::EndPose>& poses, std::vector<std::string>& from) {
   calibration::EndPoseTable table =
-      calibration::read_end_poses(as_text(load_text(file)), file.string(), sense);
+      calibration::read_end_poses(as_text(tables::text_of_file(file)), file.string(), sense);
   for (const int line : table.lines) from.push_back(fmt::format("{}, line {}", file.string(), line));
   poses = std::move(table.poses);
   for (std::size_t i = 0; i < poses.size(); ++i)

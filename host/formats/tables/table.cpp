@@ -66,6 +66,10 @@ bool is_row(std::span<const std::string_view> cells, char separator) {
   return values > 0 && 2 * values >= filled;
 }
 
+bool has_value(const auto& cells, char separator) {
+  return std::ranges::any_of(cells, [=](std::string_view cell) { return is_value(cell, separator); });
+}
+
 std::string_view without_comment_mark(std::string_view line) {
   line = trimmed(line);
   while (!line.empty() && std::string_view("#%/ \t").find(line.front()) != std::string_view::npos)
@@ -141,7 +145,10 @@ void Table::find_names() {
       continue;
     }
     split_row(rows, separator_, cells_);
-    if (is_row(cells_, separator_)) {
+    // Most cells of a row may be words, but then the line of the names above it is as long and has no number.
+    const bool follows_names = names_.size() == columns_ && cells_.size() == columns_ &&
+                               !has_value(names_, separator_) && has_value(cells_, separator_);
+    if (follows_names || is_row(cells_, separator_)) {
       before_first_ = before;
       return;
     }

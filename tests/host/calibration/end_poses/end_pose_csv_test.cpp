@@ -7,7 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "host/base/text/csv_table.hpp"
+#include "host/formats/tables/table.hpp"
+#include "tests/support/base/bounded.hpp"
 #include "tests/support/base/remarks.hpp"
 
 namespace astro::calibration {
@@ -67,15 +68,16 @@ TEST(EndPoseCsv, SpreadsheetHabitsDoNotMatter) {
 }
 
 TEST(EndPoseCsv, AFileWithoutRunsIsRefused) {
-  EXPECT_THAT(told(""), Tells(CsvProblem::empty, "cw.csv"));
-  EXPECT_THAT(told("\xEF\xBB\xBF\r\n \r\n"), Tells(CsvProblem::empty, "cw.csv"));
+  EXPECT_THAT(told(""), Tells(tables::TextProblem::empty, "cw.csv"));
+  EXPECT_THAT(told("\xEF\xBB\xBF\r\n \r\n"), Tells(tables::TextProblem::empty, "cw.csv"));
   EXPECT_THAT(told("ex_mm,ey_mm\n"), Tells(Problem::no_rows, "cw.csv"));
 }
 
 TEST(EndPoseCsv, AColumnWithoutAUnitIsRefused) {
   EXPECT_THAT(told("ex,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex"));
-  EXPECT_THAT(told("ex_inch,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex_inch"));
-  EXPECT_THAT(told("ex_mm,ey [mm]\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ey [mm]"));
+  EXPECT_THAT(told("ex_furlong,ey_mm\n1,2\n"), Tells(Problem::no_column, "cw.csv", "1", "ex"));
+  EXPECT_THAT(told("ex_mm,ey [furlong]\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ey [furlong]"));
+  EXPECT_THAT(told("ex_rad,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex_rad"));
   EXPECT_THAT(told("ex_mm,ey_mm,etheta\n1,2,3\n"), Tells(Problem::no_unit, "cw.csv", "1", "etheta"));
 }
 
@@ -90,7 +92,7 @@ TEST(EndPoseCsv, ACellThatIsNoNumberIsNamedWithLineAndColumn) {
   EXPECT_THAT(told("ex_mm,ey_mm\n1,2\n\n3,four\n"),
               Tells(Problem::not_a_number, "cw.csv", "4", "ey_mm", "four"));
   for (const std::string cell : {"1.5mm", "0x10", "1 2", "--1", "+-1", "+", "-", "1e", "."}) {
-    EXPECT_THAT(told("ex_mm,ey_mm\n" + cell + ",2\n"),
+    EXPECT_THAT(told("ex_mm,ey_mm\n" + cell + ",2\n3,4\n"),
                 Tells(Problem::not_a_number, "cw.csv", "2", "ex_mm", cell));
   }
   EXPECT_THAT(told("ex_mm,ey_mm\n1,\n"), Tells(Problem::empty_cell, "cw.csv", "2", "ey_mm"));
@@ -99,23 +101,43 @@ TEST(EndPoseCsv, ACellThatIsNoNumberIsNamedWithLineAndColumn) {
 TEST(EndPoseCsv, ACellThatIsNotFiniteIsRefused) {
   for (const std::string cell : {"nan", "NaN", "inf", "-inf", "Infinity", "1e999"}) {
     EXPECT_THAT(told("ex_mm,ey_mm,etheta_deg\n1,2," + cell + "\n"),
-                Tells(Problem::not_finite, "cw.csv", "2", "etheta_deg", cell));
+                Tells(Problem::not_a_number, "cw.csv", "2", "etheta_deg", cell));
   }
 }
 
 TEST(EndPoseCsv, ARowOfTheWrongWidthIsRefused) {
-  EXPECT_THAT(told("ex_mm,ey_mm\n1,2\n3\n"), Tells(CsvProblem::row_of_other_length, "cw.csv", "3", "1", "2"));
-  EXPECT_THAT(told("ex_mm,ey_mm\n1,5,2,5\n"),
-              Tells(CsvProblem::row_of_other_length, "cw.csv", "2", "4", "2"));
+  EXPECT_THAT(told("ex_mm,ey_mm\n1,2\n3\n"), Tells(Problem::empty_cell, "cw.csv", "3", "ey_mm"));
+  for (const char* rows : {"1,5,2,5\n", "1,2\n3,4\n1,5,2,5\n"})
+    EXPECT_THAT(told(std::string("ex_mm,ey_mm\n") + rows),
+                Tells(tables::TableProblem::rows_of_other_length, "cw.csv", testing::_, "4", "2"));
 }
 
-TEST(EndPoseCsv, WhatIsNoCommaSeparatedTextIsRefused) {
-  EXPECT_THAT(told("ex_mm;ey_mm\n1,5;2,5\n"), Tells(CsvProblem::semicolons, "cw.csv", "1"));
-  EXPECT_THAT(told("ex_mm,ey_mm\n\"1,2\n"), Tells(CsvProblem::open_quote, "cw.csv", "2"));
+TEST(EndPoseCsv, WhateverSeparatesTheCellsAndMarksTheFractionsIsRead) {
+  for (const std::string text :
+       {"ex_mm;ey_mm;etheta_deg\n-1,5;2,25;0,5\n", "sep=;\nex_mm;ey_mm;etheta_deg\n-1,5;2,25;0,5\n",
+        "ex_mm\tey_mm\tetheta_deg\n-1.5\t2.25\t0.5\n",
+        "x error [mm],y error [mm],heading error [deg]\n-1.5,2.25,0.5\n",
+        "# measured with a tape\nrun by;direction;note;floor;ex [mm];ey [mm];etheta "
+        "[deg]\nme;cw;-;wet;-1,5;2,25;0,5\n"}) {
+    const auto runs = poses_in(text);
+    ASSERT_EQ(runs.size(), 1U) << text;
+    EXPECT_DOUBLE_EQ(runs[0].x_m, -0.0015) << text;
+    EXPECT_DOUBLE_EQ(runs[0].y_m, 0.00225) << text;
+    EXPECT_DOUBLE_EQ(runs[0].theta_rad, std::numbers::pi / 360) << text;
+  }
+}
+
+TEST(EndPoseCsv, AFileThatIsNoTextOrNoTableOfRunsStaysInBounds) {
   using namespace std::string_view_literals;
   EXPECT_THAT(told("\xFF\xFE"
                    "e\0x\0"sv),
-              Tells(CsvProblem::not_plain_text, "cw.csv", "4"));
+              Tells(tables::TextProblem::not_plain_text, "cw.csv", "4"));
+  constexpr std::size_t kSize = std::size_t{8} << 20;
+  for (const std::string& text : {std::string(kSize, ','), "ex_m,ey_m\n" + std::string(kSize, ','),
+                                  "ex_m,ey_m\n" + support::filled("0,0\n", kSize)}) {
+    const support::Taken taken = support::measured([&] { EXPECT_NE(told(text).sentence, ""); });
+    EXPECT_BOUNDED(taken, text.size());
+  }
 }
 
 TEST(EndPoseCsv, AFileThatMixesDirectionsIsRefusedWhereOneIsWanted) {

@@ -531,6 +531,14 @@ TEST_F(Import, ADriveThatCanBeReadIsKeptWhereTheRangeOfTheOthersDoesNotFitIt) {
               Contains(testing::Field(&Remark::kind, Kind(WheelRemark::restart_joined))));
 }
 
+TEST_F(Import, ATableThatIsNotUnderstoodIsToldAsOneOfWheels) {
+  std::ofstream(at("log.csv")) << "stamp;enc a;enc b\n0,01;5;6\n0,02;7;8\n0,03;9;10\n";
+  EXPECT_THAT(told_by([&] { inspect_file(at("log.csv")); }),
+              Tells(WheelProblem::columns_unclear, "stamp", "enc a", "enc b"));
+  std::ofstream(at("ends.csv")) << "ex [mm];ey [mm]\n-1,5;2,25\n3,5;4\n";
+  EXPECT_EQ(inspect_file(at("ends.csv")).end_poses->poses.size(), 2U);
+}
+
 TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {
   ImportChoices wrong = choices();
   wrong.truth.length_unit = "cm";

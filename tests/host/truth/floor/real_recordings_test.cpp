@@ -4,8 +4,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "host/base/text/csv_table.hpp"
-#include "host/base/text/numbers.hpp"
+#include "host/formats/tables/table.hpp"
 #include "host/truth/files/tracker_file.hpp"
 #include "host/truth/floor/floor_path.hpp"
 #include "host/truth/floor/lost_tracking.hpp"
@@ -16,12 +15,14 @@ namespace {
 
 /// The onboard log of the stadium run: speeds of the wheels, and a heading in degrees.
 std::vector<WheelMotion> stadium_wheels(const std::string& text) {
-  const CsvTable table = split_csv(text, "odometry");
-  const auto cell = [&](std::size_t row, std::size_t column) {
-    return number_in(table.rows[row].cells[column]).value_or(0);
-  };
+  tables::Table table(text, "odometry");
+  std::vector<std::array<double, 6>> rows;
+  while (table.next())
+    for (std::size_t column = 0; auto& value : rows.emplace_back())
+      value = tables::cell_number(table.cell(column++), table.style()).value_or(0);
+  const auto cell = [&](std::size_t row, std::size_t column) { return rows[row][column]; };
   std::vector<WheelMotion> wheels;
-  for (std::size_t i = 0; i + 1 < table.rows.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
     const double time_s = cell(i, 0), next_s = cell(i + 1, 0);
     if (!(next_s > time_s)) continue;
     const double turn_rad =
