@@ -6,7 +6,10 @@
 
 #include "host/base/error.hpp"
 #include "host/calibration/end_poses/end_pose_csv.hpp"
+#include "host/calibration/end_poses/end_pose_problem.hpp"
+#include "host/calibration/end_poses/misfit.hpp"
 #include "host/calibration/end_poses/odd_run.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/shared/method_option.hpp"
@@ -50,9 +53,12 @@ std::vector<calibration::SquareEnd> ends_of(const std::vector<calibration::EndPo
   return ends;
 }
 
-/// Throws for an end that a moved decimal point or a changed sign explains, because such a mistake is easily corrected. An
-/// odd end without such an explanation is accepted.
+/// Throws for runs of which all together, or one, would fit with a mistake that is easily made and easily corrected, such as
+/// exchanged files or a moved decimal point. An odd end without such an explanation is accepted.
 void refuse_mistakes(const experiment::Squares& squares) {
+  using calibration::EndPoseProblem;
+  const auto misfit = calibration::misfit_of(squares.cw, squares.ccw, {squares.side_m, squares.loaded});
+  if (misfit && misfit->kind != Kind(EndPoseProblem::misfit)) throw Error(*misfit);
   for (const calibration::OddRun& odd :
        calibration::odd_runs(ends_of(squares.cw), ends_of(squares.ccw), {squares.side_m, squares.loaded}))
     if (odd.mistake)
@@ -63,9 +69,15 @@ void refuse_mistakes(const experiment::Squares& squares) {
                       described(odd)));
 }
 
+constexpr Advice kEndPosesAdvice[] = {
+    {calibration::EndPoseProblem::same_runs, ": name the other file, or keep them with --keep-odd"},
+    {calibration::EndPoseProblem::misfit_with_mistake,
+     ". Correct it, or keep the runs as they are with --keep-odd"}};
+
 }  // namespace
 
 void add_calibrate_end_poses(console::Command calibrate) {
+  advise(kEndPosesAdvice);
   const auto options = std::make_shared<EndPosesOptions>();
   const console::Command command =
       calibrate.add_subcommand("end-poses", "from measured end-pose errors of squares (CSV)");

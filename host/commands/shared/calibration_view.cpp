@@ -76,6 +76,10 @@ std::string left_out_text(const Calibration& calibration) {
   return text;
 }
 
+std::string misfit_text(const Calibration& calibration) {
+  return calibration.misfit ? wrapped("Take care: " + calibration.misfit->sentence + '.') : "";
+}
+
 std::string end_pose_text(const calibration::Estimate& estimate) {
   return console::table(
       {{"method", std::string(calibration::name_of(estimate.options.method))},
@@ -143,8 +147,9 @@ std::string calibration_text(const Calibration& calibration) {
   if (ml != nullptr) text += wrapped(experiment::extent_sentence(*ml));
   text += factors_text(calibration);
   if (ml != nullptr) text += sentence_on_scale(calibration);
-  text += ml != nullptr ? '\n' + ml_text(calibration)
-                        : wrapped(scale_text(calibration)) + left_out_text(calibration);
+  text += ml != nullptr
+              ? '\n' + ml_text(calibration)
+              : wrapped(scale_text(calibration)) + left_out_text(calibration) + misfit_text(calibration);
   return text + '\n' + wrapped(experiment::judgement_sentence(calibration.judgement));
 }
 
@@ -152,7 +157,8 @@ std::string calibration_summary(const Calibration& calibration) {
   const MlResult* ml = calibration.ml();
   if (ml == nullptr)
     return fmt::format("calibrated by {}:\n", calibration.method()) + left_out_text(calibration) +
-           wrapped(scale_text(calibration)) + wrapped(experiment::judgement_sentence(calibration.judgement));
+           wrapped(scale_text(calibration)) + misfit_text(calibration) +
+           wrapped(experiment::judgement_sentence(calibration.judgement));
   std::string text =
       wrapped(experiment::extent_sentence(*ml)) +
       wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) + ".") +

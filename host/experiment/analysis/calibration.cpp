@@ -8,6 +8,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/sense.hpp"
 #include "host/calibration/end_poses/end_pose_problem.hpp"
+#include "host/calibration/end_poses/misfit.hpp"
 #include "host/calibration/judgement/end_pose_validation.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/noise_of_ends.hpp"
@@ -293,6 +294,7 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   result.squares = estimate.summary;
   result.detail = estimate;
   result.left_out = squares.left_out;
+  result.misfit = calibration::misfit_of(squares.cw, squares.ccw, {squares.side_m, squares.loaded});
   if (const auto scale = calibration::scale_of_lines(squares.lines)) {
     calibration::cross_validate_scale(squares.lines, squares.loaded, *scale, result.judgement);
     apply(*scale, result);

@@ -59,6 +59,7 @@ struct Calibration {
   /// The scale from measured lines, which `factors` already contain; none without lines, and none by maximum likelihood.
   std::optional<calibration::LineScale> line_scale;
   std::vector<std::string> left_out;  // squares that end poses do not use: which, and why
+  std::optional<Remark> misfit;       // of end poses: no wheels explain them (misfit.hpp)
   /// Compares the loaded and the new factors on hold-out drives; the verdict is unknown for a single drive.
   calibration::CrossValidation judgement;
 

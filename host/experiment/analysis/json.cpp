@@ -224,6 +224,7 @@ nlohmann::json to_json(const Calibration& calibration) {
     json["truth_scale"] = {{"measured", std::isfinite(calibration.truth_scale_sigma)},
                            {"standard_error", number(calibration.truth_scale_sigma)}};
   if (!calibration.left_out.empty()) json["left_out"] = calibration.left_out;
+  if (calibration.misfit) json["misfit"] = calibration.misfit->sentence;
   if (const MlResult* ml = calibration.ml()) json.update(likelihood_json(*ml));
   json["verdict"] = judgement_json(calibration.judgement);
   return json;

@@ -150,6 +150,9 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithATableOfEndPoses) {
   write("unitless.csv", "ex,ey_mm\n1,2\n");
   write("gap.csv", "ex_mm,ey_mm\n1,\n");
   write("double.csv", "ex_mm,ex_m,ey_mm\n1,1,2\n");
+  const std::string head = "ex_mm,ey_mm,etheta_rad\n";
+  write("was-ccw.csv", head + "300,-250,0.17\n310,-260,0.18\n290,-245,0.165\n");
+  write("was-cw.csv", head + "-230,-260,0.15\n-240,-250,0.155\n-220,-255,0.148\n");
   write("long.csv", "ex_mm,ey_mm\n1,2,3\n");
   write("header.csv", "ex_mm,ey_mm\n");
   write("narrow.csv", "ex_mm\n1\n");
@@ -171,6 +174,12 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithATableOfEndPoses) {
        "gap.csv, line 2: column ey_mm: the cell is empty: write the number or leave the run out"},
       {"a doubled column", ends("double.csv"),
        "double.csv, line 1: columns ex_mm and ex_m both give ex: keep one of them"},
+      {"the same file twice", ends("ccw.csv"),
+       "the clockwise and the counter-clockwise runs are the same numbers: name the other file, or keep them "
+       "with --keep-odd"},
+      {"exchanged files", ends("was-ccw.csv", "", "was-cw.csv"),
+       "no wheels and no wheelbase bring the robot to these ends; they would fit if the directions were "
+       "exchanged. Correct it, or keep the runs as they are with --keep-odd"},
       {"a row of another length", ends("long.csv"),
        "long.csv, line 2: the row has 3 cells and the header 2: write numbers with a decimal point, or "
        "separate "
@@ -205,8 +214,7 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithATableOfEndPoses) {
       {"ends of no robot, by least squares", ends("far.csv", " --method least-squares", "near.csv"),
        "no pair of wheel and wheelbase ratios explains these end positions: check the units, the side length "
        "and that the clockwise and counter-clockwise runs are not exchanged"},
-      {"an empty file", ends("empty.csv"),
-       "'empty.csv' is empty"},
+      {"an empty file", ends("empty.csv"), "'empty.csv' is empty"},
       {"no file", ends("none.csv"), "none.csv does not exist: check the path"},
       {"a folder", ends("."), ". is a folder: name a file in it"},
   });

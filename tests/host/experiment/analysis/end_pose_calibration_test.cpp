@@ -36,6 +36,13 @@ TEST(EndPoseCalibration, BearsHeadingsThatWereMeasuredForSomeRunsOnly) {
   EXPECT_EQ(found.judgement.verdict, calibration::Verdict::better);
 }
 
+TEST(EndPoseCalibration, SaysWhereNoWheelsBringTheRobotToTheEnds) {
+  Squares wrong = squares();
+  EXPECT_FALSE(calibrate(wrong, MethodChoice{}).misfit);
+  for (calibration::EndPose& end : wrong.ccw) end.theta_rad = -end.theta_rad;
+  EXPECT_TRUE(calibrate(wrong, MethodChoice{}).misfit);
+}
+
 TEST(EndPoseCalibration, LeavesTheScaleAsLoadedWithoutALine) {
   const Calibration found = calibrate(squares(), MethodChoice{});
   EXPECT_NEAR(found.scale(), 1, 1e-12);
