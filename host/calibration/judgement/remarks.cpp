@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "host/base/text/degrees.hpp"
 
@@ -46,6 +49,28 @@ Remark skew_remark(double ppm) {
           apart, ppm < 0 ? "slower" : "faster"),
       JudgementProblem::clocks_run_apart,
       {apart}};
+}
+
+/// What is wrong with drives of which only the ends were measured does not show in a chi-square, from which their slip is found,
+/// but in a slip that no robot has.
+std::optional<Remark> remark_on_slip(const MlEstimate& estimate) {
+  constexpr double kMostTimes = 16;  // four times as far as usual; robots on carpet slip half of that
+  const double times = estimate.noise.K_m / NoiseModel{}.K_m;
+  if (!(times > kMostTimes)) return std::nullopt;
+  double sum = 0;
+  for (const RunFit& run : estimate.runs) sum += run.chi_square;
+  const auto farthest = std::ranges::max_element(estimate.runs, {}, &RunFit::chi_square);
+  const std::string shown = fmt::format("{:.0f}", times);
+  Remark remark{"the wheels would slip " + shown +
+                    " times as much as those of usual robots: left and right wheels may be exchanged, or a "
+                    "pose is mistyped or of another drive",
+                JudgementProblem::slips_too_much,
+                {shown}};
+  if (2 * farthest->chi_square > sum) {
+    remark.sentence += ", most likely of " + farthest->name;
+    remark.values.push_back(farthest->name);
+  }
+  return remark;
 }
 
 }  // namespace
@@ -92,6 +117,8 @@ std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
                                  : "; look for a run whose chi²/dof is far above the others', for slip, and "
                                    "for truth of another drive"),
          noise_problem});
+  if (estimate.ends_only && !noise_given)
+    if (auto remark = remark_on_slip(estimate)) list.push_back(*std::move(remark));
   if (estimate.dispersion > 1)
     list.push_back(
         {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "

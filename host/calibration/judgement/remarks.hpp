@@ -9,8 +9,8 @@
 namespace astro::calibration {
 
 /// What may spoil a calibration or its judgement. Values: the run (run_stands_out, run_slipped), the runs
-/// (known_by_these_alone); then for each slip the
-/// seconds since the run's start, and the degrees; of clocks_run_apart by how many parts in a million.
+/// (known_by_these_alone), how many times the usual slip and, if one run shows most of it, the run (slips_too_much); then for
+/// each slip the seconds since the run's start, and the degrees; of clocks_run_apart by how many parts in a million.
 enum class JudgementProblem {
   too_few_squares,
   single_line,
@@ -21,7 +21,8 @@ enum class JudgementProblem {
   run_slipped,
   given_noise_is_wrong,
   estimated_noise_is_wrong,
-  clocks_run_apart
+  clocks_run_apart,
+  slips_too_much
 };
 
 /// How far the drives show that gentle arcs turn about another wheelbase than spins: below two standard errors of e, below three,

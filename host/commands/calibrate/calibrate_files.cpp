@@ -1,6 +1,8 @@
 #include <memory>
 
 #include "host/base/files.hpp"
+#include "host/calibration/judgement/remarks.hpp"
+#include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
@@ -9,8 +11,15 @@
 #include "host/experiment/analysis/calibration.hpp"
 
 namespace astro::commands {
+namespace {
+
+constexpr Advice kFilesAdvice[] = {
+    {calibration::JudgementProblem::slips_too_much, "; --swap-wheels exchanges the wheels"}};
+
+}  // namespace
 
 void add_calibrate_files(console::Command calibrate) {
+  advise(kFilesAdvice);
   struct Options {
     ImportOptions import;
     CalibrationOutput output;
@@ -29,7 +38,14 @@ void add_calibrate_files(console::Command calibrate) {
       "    --wheel-diameter 0.084 --counts-per-turn 2796.8 --wheelbase 0.2 --out calib.toml\n"
       "  astrolabe calibrate files --wheels ticks.csv --wheel-columns time_s,left_counts,right_counts \\\n"
       "    --per-interval --truth take.csv --body ASTRO --robot diff_drive.yaml\n"
-      "  astrolabe inspect take.csv");
+      "  astrolabe inspect take.csv\n"
+      "Where no tracker follows the robot, a table of two rows for each drive will do, the poses before and\n"
+      "after it from a tape, in any frame that the robot's start and end share:\n"
+      "  x_m,y_m,theta_deg\n"
+      "  0,0,0\n"
+      "  4.02,0.11,-1.5\n"
+      "  astrolabe calibrate files --wheels 1.csv --truth ends1.csv --wheels 2.csv --truth ends2.csv \\\n"
+      "    --wheel-diameter 0.084 --counts-per-turn 2796.8 --wheelbase 0.2 --out calib.toml");
   command.callback([options] {
     if (!options->import.given())
       throw console::WrongUsage("no drives are named: give --wheels and --truth for each");

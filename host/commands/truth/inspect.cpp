@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -61,6 +62,11 @@ std::string tracker_text(const truth::Inspection& tracker) {
     if (facts->rate_hz > 0) text += fmt::format(", {:.6g} Hz stated", facts->rate_hz);
     if (!facts->start_time.empty()) text += ", started " + facts->start_time;
     text = wrapped(text + '.');
+  }
+  const auto has_two = [](const truth::BodyInspection& body) { return body.samples == 2; };
+  if (!tracker.bodies.empty() && std::ranges::all_of(tracker.bodies, has_two)) {
+    text += wrapped("Two poses each: where a drive began and where it ended.");
+    return text + said(tracker.bodies.front().facts.remarks);
   }
   Rows rows{{"body", "samples", "seconds", "Hz", "lost", "gaps", "longest s", "up", "noise at rest"}};
   for (const truth::BodyInspection& body : tracker.bodies)

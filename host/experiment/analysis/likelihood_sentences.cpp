@@ -62,8 +62,9 @@ std::string extent_sentence(const MlResult& ml) {
     distance_m += run.distance_m;
     rotation_rad += run.rotation_rad;
   }
-  return fmt::format("Maximum likelihood over {} whole drive{}: {:.1f} m and {:.1f} turns.",
-                     ml.estimate.runs.size(), ml.estimate.runs.size() == 1 ? "" : "s", distance_m,
+  return fmt::format("Maximum likelihood over {} {}drive{}: {:.1f} m and {:.1f} turns.",
+                     ml.estimate.runs.size(), ml.estimate.ends_only ? "" : "whole ",
+                     ml.estimate.runs.size() == 1 ? "" : "s", distance_m,
                      rotation_rad / (2 * std::numbers::pi));
 }
 
@@ -138,10 +139,14 @@ std::string wheelbase_sentence(const Calibration& found) {
 std::string noise_sentence(const MlResult& ml) {
   const calibration::NoiseModel& noise = ml.estimate.noise;
   const bool headings = std::isfinite(ml.estimate.sessions.front().lever.theta_rad);
-  std::string text = fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth {:.3g} mm",
-                                 ml.noise_given ? "given" : "estimated", noise.K_m, 1000 * noise.sigma_xy_m);
+  // How exact a person reads a tape, the two ends of a drive do not show.
+  const bool assumed = ml.estimate.ends_only && !ml.noise_given;
+  std::string text = fmt::format("Noise, {}: wheel slip K = {:.3g} m; ground truth{} {:.3g} mm",
+                                 ml.noise_given ? "given" : "estimated", noise.K_m,
+                                 assumed ? ", assumed as read from a tape:" : "", 1000 * noise.sigma_xy_m);
   if (headings) text += fmt::format(" and {:.3g} mrad", 1000 * noise.sigma_theta_rad);
-  text += fmt::format(" a sample. Chi-square per degree of freedom: {:.2f}.",
+  text += fmt::format(" {}. Chi-square per degree of freedom: {:.2f}.",
+                      ml.estimate.ends_only ? "an end" : "a sample",
                       ml.estimate.chi_square / std::max(1, ml.estimate.degrees_of_freedom));
   if (ml.estimate.spacing_m > 0)
     text += fmt::format(

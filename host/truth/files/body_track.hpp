@@ -46,7 +46,8 @@ enum class TrackRemark {
   times_repeated,
   times_continued,
   times_spread,
-  times_disagree
+  times_disagree,
+  ends_without_times
 };
 
 /// What the recording says of itself, as found; the poses are already converted.

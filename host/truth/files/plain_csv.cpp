@@ -202,7 +202,13 @@ void settle_columns(PlainHeader& header, const tables::TimeColumns& time, tables
   columns.radians = header.angle_unit.empty() ? 1 : *tables::radians_per(header.angle_unit);
 }
 
-/// The bodies that have a time and a position, each by what its columns' names begin with.
+bool has_two_rows(Table table) {
+  table.rewind();
+  return table.next() && table.next() && !table.next();
+}
+
+/// The bodies that have a time and a position, each by what its columns' names begin with. A table of two rows needs no time:
+/// they are the ends of a drive.
 std::vector<PlainHeader> plain_headers(const Table& table, const std::vector<std::string>& names) {
   std::vector<PlainHeader> headers;
   tables::TimeColumns first_time;  // of all bodies that have none of their own
@@ -224,9 +230,10 @@ std::vector<PlainHeader> plain_headers(const Table& table, const std::vector<std
       take_unit(table.rows(), *slot, static_cast<int>(i), name.unit, header);
   }
   for (PlainHeader& header : headers) settle_columns(header, first_time, table.style());
-  std::erase_if(headers, [](const PlainHeader& header) {
+  const bool ends = !first_time.at && has_two_rows(table);
+  std::erase_if(headers, [ends](const PlainHeader& header) {
     const PoseColumns& columns = header.columns;
-    return columns[Slot::x] < 0 || columns[Slot::y] < 0 || columns[Slot::time] < 0;
+    return columns[Slot::x] < 0 || columns[Slot::y] < 0 || (columns[Slot::time] < 0 && !ends);
   });
   return headers;
 }
@@ -477,14 +484,20 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
   track.name = names[chosen].name;
   describe_plain(header, track.facts);
   settle_angles(table, header, track.facts);
-  const tables::TimeFormat format = settle_times(table, header, track.facts);
+  const bool timed = header.columns[Slot::time] >= 0;
+  const tables::TimeFormat format = timed ? settle_times(table, header, track.facts) : tables::TimeFormat{};
+  if (!timed)
+    track.facts.remarks.push_back(
+        {"there are no times: the two rows are taken for the poses before and after a drive",
+         TrackRemark::ends_without_times});
   tables::TimeReader times(header.time, format, table.style());
   PoseRow row(header.columns);
   TrackBuilder builder(track, plain.text);
   while (table.next()) {
     if (!bodies.tags.empty() && table.cell(static_cast<std::size_t>(bodies.tag)) != track.name) continue;
     row.read(table.rows());
-    const auto time_ns = times.read(row.time(), row.time_fraction());
+    const auto row_ns = static_cast<std::int64_t>(track.samples.size()) * 1'000'000'000;
+    const auto time_ns = timed ? times.read(row.time(), row.time_fraction()) : row_ns;
     if (!time_ns)
       table.rows().refuse(
           header.columns[Slot::time] + 1,

@@ -14,7 +14,8 @@
 /// Position  x, y and perhaps z: x_m, "x (mm)", "x [cm]", tx, posX, x_pos, position.x, /pose/position/x
 /// Rotation  qx, qy, qz, qw (also orientation.x ...); roll, pitch and yaw (about z, then y, then x); or theta, yaw or heading
 ///           about z; without any of them the track has positions only
-/// Time      time_s, time_ms, t, stamp, timestamp, __time; sec and nanosec; dates and times of day (host/formats/tables)
+/// Time      time_s, time_ms, t, stamp, timestamp, __time; sec and nanosec; dates and times of day (host/formats/tables). Not
+///           in a table of two rows, which are then the ends of a drive.
 /// Units     behind an underscore or in brackets, or in a line of their own. Without one: metres; for angles
 ///           that which the direction of motion shows, else radians; for the time that which its size or spacing shows.
 ///           facts.remarks names each unit that was assumed.

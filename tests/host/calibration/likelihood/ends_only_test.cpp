@@ -66,6 +66,27 @@ TEST(EndsOnly, AreNotSaidToDisagreeWithANoiseThatNobodyGave) {
       EXPECT_NE(remark.kind, Kind(JudgementProblem::estimated_noise_is_wrong)) << remark.sentence;
 }
 
+bool has_remark(const MlEstimate& estimate, JudgementProblem problem, const std::string& run = "") {
+  return std::ranges::any_of(remarks(estimate, false), [&](const Remark& remark) {
+    return remark.kind == Kind(problem) && (run.empty() || remark.values.back() == run);
+  });
+}
+
+TEST(EndsOnly, OfARobotThatSeemsToSlipFarAreToldWhatThatMayBe) {
+  DriveModel model = astro_drive();
+  model.noise = {5 * 2.645e-6, 0.002, 0.007};
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const std::vector<Trajectory> honest = drives_with_ends(model, seed);
+    EXPECT_FALSE(has_remark(from_ends(honest, model.loaded), JudgementProblem::slips_too_much)) << seed;
+  }
+  model.noise.K_m = 2.645e-6;
+  std::vector<Trajectory> mistyped = drives_with_ends(model, kSeed), others = mistyped;
+  mistyped[3].truth[1].x_m += 1;
+  EXPECT_TRUE(has_remark(from_ends(mistyped, model.loaded), JudgementProblem::slips_too_much, "run 4"));
+  std::swap(others[1].truth, others[3].truth);  // circles of two sizes
+  EXPECT_TRUE(has_remark(from_ends(others, model.loaded), JudgementProblem::slips_too_much));
+}
+
 TEST(EndsOnly, WithoutANumberForAPlaceAreRefused) {
   const DriveModel model = astro_drive();
   std::vector<Trajectory> runs = drives_with_ends(model, kSeed);

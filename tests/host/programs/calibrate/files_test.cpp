@@ -353,9 +353,9 @@ TEST_F(Files, OfWhichOnlyTheEndsWereMeasuredAreEnough) {
   for (const calibration::Trajectory& run : calibration::varied_drives(model)) {
     const std::string stem = at("drive" + std::to_string(words.size() / 4 + 1));
     std::ofstream ends(stem + "-ends.csv");
-    ends << "time_s,x_m,y_m,theta_rad\n";
+    ends << "x_m,y_m,theta_rad\n";  // nobody with a tape has times
     for (const calibration::BodySample& end : {run.truth.front(), run.truth.back()})
-      ends << end.time_s << ',' << end.x_m << ',' << end.y_m << ',' << end.theta_rad << '\n';
+      ends << end.x_m << ',' << end.y_m << ',' << end.theta_rad << '\n';
     words.insert(words.end(), {"--wheels", test::write_counts(stem + ".csv", run).string(), "--truth",
                                stem + "-ends.csv"});
   }
@@ -368,6 +368,9 @@ TEST_F(Files, OfWhichOnlyTheEndsWereMeasuredAreEnough) {
     EXPECT_NEAR(found[name].get<double>(), actual, 3 * found["standard_errors"][name].get<double>()) << name;
   EXPECT_THAT(outcome.err, Not(HasSubstr("unit of length")));
   EXPECT_EQ(found["noise"]["given"], false);
+  const Outcome inspected = astrolabe({"inspect", at("drive1-ends.csv")});
+  EXPECT_THAT(inspected.out, HasSubstr("where a drive began and where it ended")) << inspected.err;
+  EXPECT_THAT(inspected.out, HasSubstr("calibrate files --wheels WHEELS --truth"));
 }
 
 TEST_F(Files, AreInspectedWithTheCommandThatCalibrates) {
