@@ -158,28 +158,11 @@ void settle_units(std::vector<FloorPoint>& points, const BodyTrack& track,
          {fmt::format("{:.4g}", findings.length_ratio)}});
 }
 
-/// Whether a good part of the wheels' way is forward, and a good part backward.
-bool goes_both_ways(std::span<const WheelMotion> wheels) {
-  constexpr double kGoodPart = 0.1;
-  double forward = 0, backward = 0;
-  for (const WheelMotion& at : wheels) (at.speed_mps > 0 ? forward : backward) += std::abs(at.speed_mps);
-  return std::min(forward, backward) > kGoodPart * (forward + backward);
-}
-
-/// The correlation of the wheels' turning with that of the headings, or with that of the path if there are no
-/// headings. In a path that may go both ways, a turn of a little more than a right angle looks like one of a little less, the
-/// other way round.
-double correlation_with(const std::vector<FloorPoint>& points, std::span<const WheelMotion> motion,
-                        const ClockMatch& clock) {
-  const Turning wheels = turning_of(motion);
-  const auto with = [&](const Turning& own) {
-    return turning_correlation(own, wheels, clock.offset_s, clock.skew, clock.middle_s);
-  };
-  if (has_headings(points)) return with(heading_turning(points));
-  const double forward = with(path_turning(points, false));
-  if (!goes_both_ways(motion)) return forward;
-  const double both_ways = with(path_turning(points, true));
-  return std::abs(forward) > std::abs(both_ways) ? forward : both_ways;
+/// Whether the track turns as the wheels do: by its headings, or by where the path lies if there are none.
+double agreement_with(const std::vector<FloorPoint>& points, std::span<const WheelMotion> wheels,
+                      const Turning& by_wheels, const ClockMatch& clock) {
+  if (!has_headings(points)) return handedness(points, wheels, clock);
+  return turning_correlation(heading_turning(points), by_wheels, clock.offset_s, clock.skew, clock.middle_s);
 }
 
 /// From the rightmost to the leftmost heading.
@@ -205,8 +188,9 @@ void settle_direction(std::vector<FloorPoint>& points, std::span<const WheelMoti
          "recorded together"});
     return;
   }
-  findings.turning_correlation = correlation_with(points, wheels, *findings.clock);
-  if (findings.turning_correlation > -kSure || turned(turning_of(wheels)) < kLeastTurn_rad) return;
+  const Turning by_wheels = turning_of(wheels);
+  findings.turning_correlation = agreement_with(points, wheels, by_wheels, *findings.clock);
+  if (findings.turning_correlation > -kSure || turned(by_wheels) < kLeastTurn_rad) return;
   findings.turns_against_wheels = true;
   if (findings.up_given) {
     findings.remarks.push_back(

@@ -56,7 +56,8 @@ struct FloorFindings {
   /// Only with wheels.
   std::optional<ClockMatch> clock;
   double wheels_path_m = 0;
-  double turning_correlation = 0;  // of the returned path's turning with the wheels'
+  double turning_correlation =
+      0;  // of the returned path's turning with the wheels'; without headings its handedness
   double length_ratio = 0;  // path of the track over path of the wheels, before any factor; 0: not known
   /// 1000, 100, 0.01 or 0.001 if the ratio is near it, else 1: one of the two has a wrong unit of length.
   double unit_ratio = 1;

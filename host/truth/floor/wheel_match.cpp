@@ -1,9 +1,11 @@
 #include "host/truth/floor/wheel_match.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "host/calibration/motion/clock_search.hpp"
 
@@ -91,6 +93,79 @@ std::vector<calibration::WheelSample> travel_of(std::span<const WheelMotion> whe
   return out;
 }
 
+using Complex = std::complex<double>;
+
+/// Where the robot is by its wheels, from (0, 0) with heading 0 at the first sample.
+class WayOfWheels {
+ public:
+  explicit WayOfWheels(std::span<const WheelMotion> wheels) : wheels_(wheels) {}
+
+  /// Moves on to a time, which must not fall; false outside of the samples.
+  bool go_to(double time_s) {
+    if (wheels_.size() < 2 || time_s < wheels_.front().time_s || time_s > wheels_.back().time_s) return false;
+    for (; next_ < wheels_.size() && wheels_[next_].time_s < time_s; ++next_) step_to(wheels_[next_].time_s);
+    step_to(time_s);
+    return true;
+  }
+  Complex at() const { return at_; }
+  double heading_rad() const { return heading_rad_; }
+  double turned_rad() const { return turned_rad_; }
+
+ private:
+  void step_to(double time_s) {
+    const double from_s = std::exchange(time_s_, std::max(time_s, time_s_));
+    if (from_s == -HUGE_VAL) return;
+    const WheelMotion &a = wheels_[std::max<std::size_t>(next_, 1) - 1],
+                      &b = wheels_[std::min(next_, wheels_.size() - 1)];
+    const double span_s = time_s_ - from_s, turn_rad = span_s * (a.yaw_rate_radps + b.yaw_rate_radps) / 2;
+    at_ += std::polar(span_s * (a.speed_mps + b.speed_mps) / 2, heading_rad_ + turn_rad / 2);
+    heading_rad_ += turn_rad;
+    turned_rad_ += std::abs(turn_rad);
+  }
+
+  std::span<const WheelMotion> wheels_;
+  std::size_t next_ = 0;
+  double time_s_ = -HUGE_VAL, heading_rad_ = 0, turned_rad_ = 0;
+  Complex at_;
+};
+
+/// How much of positions z, and of their mirror image, the ways t + r (q + l exp(i phi)) of all points l on the robot leave
+/// unexplained: linear least squares in t, r and r l.
+class ShapeMatch {
+ public:
+  void take(const WayOfWheels& robot, Complex z) {
+    if (count_ == 0) origin_ = z, begin_ = robot.at();
+    z -= origin_;
+    const Eigen::Vector3cd row(1, robot.at() - begin_, std::polar(1.0, robot.heading_rad()));
+    normal_ += row.conjugate() * row.transpose();
+    right_side_.col(0) += row.conjugate() * z;
+    right_side_.col(1) += row.conjugate() * std::conj(z);
+    squares_m2_ += std::norm(z);
+    ++count_;
+  }
+  double spread_m2() const { return count_ > 0 ? squares_m2_ - std::norm(right_side_(0, 0)) / count_ : 0; }
+  Eigen::Array2d unexplained_m2() const {
+    if (count_ < kFewest) return {0, 0};
+    // A point far from the robot would explain any two lines. This prior hardly holds back one on it.
+    constexpr double kUsualLever_m = 0.3, kPrior = 0.05;
+    const double way_m2 = normal_(1, 1).real() - std::norm(normal_(0, 1)) / count_;
+    Eigen::Matrix3cd normal = normal_ + 1e-9 * normal_.trace() * Eigen::Matrix3cd::Identity();
+    normal(2, 2) += kPrior * way_m2 / (kUsualLever_m * kUsualLever_m);
+    const Eigen::Matrix<Complex, 3, 2> found = normal.ldlt().solve(right_side_);
+    const auto explained = [&](int side) { return right_side_.col(side).dot(found.col(side)).real(); };
+    return {std::max(0.0, squares_m2_ - explained(0)), std::max(0.0, squares_m2_ - explained(1))};
+  }
+
+ private:
+  static constexpr int kFewest = 5;
+
+  Complex origin_, begin_;
+  Eigen::Matrix3cd normal_ = Eigen::Matrix3cd::Zero();
+  Eigen::Matrix<Complex, 3, 2> right_side_ = Eigen::Matrix<Complex, 3, 2>::Zero();
+  double squares_m2_ = 0;
+  int count_ = 0;
+};
+
 /// The offset near `match` at which the turning agrees best.
 double refined_offset(const ClockMatch& match, const Turning& own, const Turning& wheels) {
   constexpr double kStep_s = 0.01;
@@ -116,20 +191,6 @@ double refined_offset(const ClockMatch& match, const Turning& own, const Turning
 }
 
 }  // namespace
-
-Turning path_turning(std::span<const FloorPoint> points, bool both_ways) {
-  const std::vector<FloorPoint> places = places_of(points);
-  const double same_rad = both_ways ? std::numbers::pi : 2 * std::numbers::pi;
-  Turning out;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    const FloorPoint &from = places[i - 1], &to = places[i];
-    const double direction_rad = std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
-    const double before_rad = out.empty() ? direction_rad : out.back().angle_rad;
-    const double change_rad = std::remainder(direction_rad - before_rad, same_rad);
-    out.push_back({(from.time_s + to.time_s) / 2, before_rad + change_rad, from.joined && to.joined});
-  }
-  return out;
-}
 
 Turning heading_turning(std::span<const FloorPoint> points) {
   constexpr double kApart_s = 0.2;
@@ -158,6 +219,30 @@ double handedness(std::span<const FloorPoint> points) {
   const double forward = concentration(places, 1, 1) - concentration(places, -1, 1);
   const double both_ways = concentration(places, 1, 2) - concentration(places, -1, 2);
   return std::abs(forward) > std::abs(both_ways) ? forward : both_ways;
+}
+
+double handedness(std::span<const FloorPoint> points, std::span<const WheelMotion> wheels,
+                  const ClockMatch& clock) {
+  constexpr double kStretch_rad = std::numbers::pi;  // longer ones a wrong wheelbase would bend
+  constexpr double kStraight = 1e-3;                 // of the spread: what sways about a line
+  WayOfWheels robot(wheels);
+  ShapeMatch stretch;
+  Eigen::Array2d unexplained_m2(0, 0);
+  double spread_m2 = 0, begin_rad = 0;
+  const auto finish = [&] {
+    unexplained_m2 += stretch.unexplained_m2();
+    spread_m2 += stretch.spread_m2();
+    stretch = {};
+    begin_rad = robot.turned_rad();
+  };
+  for (const FloorPoint& point : points) {
+    if (!robot.go_to(point.time_s + clock.offset_s + clock.skew * (point.time_s - clock.middle_s))) continue;
+    stretch.take(robot, {point.x_m, point.y_m});
+    if (robot.turned_rad() - begin_rad > kStretch_rad) finish();
+  }
+  finish();
+  const double all_m2 = unexplained_m2.sum() + kStraight * spread_m2;
+  return all_m2 > 0 ? (unexplained_m2[1] - unexplained_m2[0]) / all_m2 : 0;
 }
 
 double turning_correlation(const Turning& a, const Turning& b, double shift_s, double skew, double middle_s) {

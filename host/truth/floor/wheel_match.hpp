@@ -21,11 +21,6 @@ struct TurningSample {
 };
 using Turning = std::vector<TurningSample>;
 
-/// The direction in which the points go, between places that are a hundredth of the path's extent apart. `both_ways`: the
-/// robot also drives backward, so opposite directions count as the same. Then a turn by more than a right angle between two
-/// places is misread.
-Turning path_turning(std::span<const FloorPoint> points, bool both_ways);
-
 /// The heading at times that are at least 0.2 s apart, because noise of single samples would hide a slow turn.
 Turning heading_turning(std::span<const FloorPoint> points);
 
@@ -60,6 +55,12 @@ struct ClockMatch {
   double offset_s = 0, skew = 0, middle_s = 0;
   double correlation = 0;  // of the motions, without regard to the direction of turning
 };
+
+/// Whether positions without headings lie as the wheels went (1), or as their mirror image (-1); near 0 if both do, as on a line.
+/// Each stretch of some turns is compared with the way of a point on the robot, wherever it is: near the axle its direction of
+/// motion turns against the robot where that begins and ends a spin.
+double handedness(std::span<const FloorPoint> points, std::span<const WheelMotion> wheels,
+                  const ClockMatch& clock);
 
 /// Searches all offsets (calibration::search_clock) by speeds and turn rates. If the robot turned, the offset is then refined
 /// by the turning alone, because a body that is not on the axle has another speed than the wheels. Nothing if the streams

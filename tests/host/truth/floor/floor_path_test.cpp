@@ -172,6 +172,41 @@ TEST(FloorPath, PositionsAloneGiveNoHeadings) {
   EXPECT_GT(path.findings.turning_correlation, 0.8) << "the path itself turns as the wheels do";
 }
 
+/// Three squares of 2 m one way round with spins at the corners, as a tracker of positions sees a point so far ahead of the axle.
+Drive squares_seen_at(double ahead_m, double left_m = 0, double wheelbase_error = 0) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal(0, 2e-3);
+  Drive drive;
+  drive.track.name = "astro";
+  drive.track.facts.length_unit = "m";
+  double x = 0, y = 0, heading = 0;
+  for (int i = 0; i < 11500; ++i) {
+    const double t = 0.01 * i, in_side = std::fmod(t, 9.5);  // a line of 8 s, then a spin of 1.5 s
+    const double speed = in_side < 8 ? 0.25 : 0, rate = speed == 0 ? kPi / 3 : 0;
+    if (i % 2 == 0) drive.wheels.push_back({t + 3, speed, rate * (1 + wheelbase_error)});
+    const double c = std::cos(heading), s = std::sin(heading);
+    drive.track.samples.push_back({i * std::int64_t{10'000'000},
+                                   {x + ahead_m * c - left_m * s + normal(random),
+                                    y + ahead_m * s + left_m * c + normal(random), 0.2, 0, 0, 0, 1}});
+    x += 0.01 * speed * c;
+    y += 0.01 * speed * s;
+    heading += 0.01 * rate;
+  }
+  return drive;
+}
+
+TEST(FloorPath, OfAPointAheadOfTheAxleTurnsAsTheWheelsDo) {
+  for (const double ahead_m : {-0.02, 0.012, 0.016, 0.3})
+    for (const double wheelbase_error : {0.0, 0.2}) {
+      Drive drive = squares_seen_at(ahead_m, 0, wheelbase_error);
+      const FloorPath path = place_on_floor(drive.track, drive.wheels);
+      EXPECT_FALSE(path.findings.turns_against_wheels) << ahead_m << ' ' << wheelbase_error;
+      for (TrackedPose& sample : drive.track.samples) sample.pose.y_m = -sample.pose.y_m;
+      const FloorPath mirrored = place_on_floor(drive.track, drive.wheels);
+      EXPECT_TRUE(mirrored.findings.turns_against_wheels) << ahead_m << ' ' << wheelbase_error;
+    }
+}
+
 TEST(FloorPath, AStraightDriveWithoutATurnShowsNoUpAxis) {
   Drive drive = s_drive();
   drive.track.samples.resize(150);  // at rest
