@@ -12,6 +12,7 @@
 #include "host/calibration/likelihood/innovation.hpp"
 #include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
+#include "host/calibration/likelihood/moved_body.hpp"
 #include "host/calibration/likelihood/moves.hpp"
 #include "host/calibration/likelihood/normal_equations.hpp"
 #include "host/calibration/likelihood/sample_selection.hpp"
@@ -244,14 +245,16 @@ void require_observable(const PreparedRuns& prepared, const WheelFactors& loaded
 
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options) {
-  const PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
+  PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
   require_variety(prepared);
   // Skipped if no run has headings, because the lever arm is not known yet, and without it spins show
   // nothing.
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observable(prepared, loaded, options.clock_known);
-  MlEstimate estimate = summarise(MlFit::of(prepared, loaded, options));
+  MlFit fit = MlFit::of(prepared, loaded, options);
+  const bool split = split_sessions(fit, prepared);
+  MlEstimate estimate = summarise(split ? MlFit::of(prepared, loaded, options) : std::move(fit));
   estimate.left_out = prepared.left_out;
   estimate.mended = prepared.mended;
   return estimate;

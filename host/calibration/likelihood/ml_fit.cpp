@@ -446,8 +446,8 @@ void MlFit::require_plausible() const {
   if (go_equally_far(runs_))
     throw Error(found +
                     ", although its wheels go as far as the ground truth: check the stamps of both, which "
-                    "may be times of "
-                    "arrival, and the resolution of the encoders and of the ground truth",
+                    "may be times of arrival, the resolution of the encoders and of the ground truth, and "
+                    "whether the tracked body stayed where it was on the robot",
                 LikelihoodProblem::stamps_or_resolution);
   throw Error(found + ": check the unit of the ground truth, the wheel diameter and the counts of a turn",
               LikelihoodProblem::implausible_factors);

@@ -84,6 +84,14 @@ std::vector<std::string> session_names(std::span<const calibration::Trajectory> 
   return names;
 }
 
+/// The drives are judged in the sessions in which they were fitted.
+void keep_sessions(const calibration::MlEstimate& estimate, std::vector<calibration::Trajectory>& runs) {
+  for (const calibration::RunFit& fit : estimate.runs) {
+    const auto run = std::ranges::find(runs, fit.name, &calibration::Trajectory::name);
+    if (run != runs.end()) run->session = std::to_string(fit.session);
+  }
+}
+
 double truth_scale_sigma(Phases phases) {
   double most = 0;
   for (const auto& phase : phases)
@@ -142,7 +150,7 @@ void require_likely_skew(const calibration::MlEstimate& estimate) {
 }
 
 Calibration by_ml(Phases phases, const MlChoice& choice) {
-  const std::vector<calibration::Trajectory> runs = all_trajectories(phases);
+  std::vector<calibration::Trajectory> runs = all_trajectories(phases);
   const Recordings& first = *phases.front();
   Calibration result;
   result.loaded = last_loaded(phases);
@@ -157,6 +165,7 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
   if (choice.clock != MlChoice::Clock::estimated) require_likely_skew(ml.estimate);
   ml.session_names = session_names(runs, ml.estimate);
+  keep_sessions(ml.estimate, runs);
   result.truth_scale_sigma = truth_scale_sigma(phases);
   // If nobody measured a length, the loaded scale stays. The loaded factors are then compared at the estimated scale, so
   // that the scale does not count in the judgement.

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 #include "host/calibration/likelihood/maximum_likelihood.hpp"
 #include "host/calibration/preparation/mounting.hpp"
@@ -158,6 +159,76 @@ TEST(Sessions, OfOneRobotPoolToTheWeightedMeanOfTheirFactors) {
   EXPECT_NEAR(pooled.sessions[1].lever.theta_rad - pooled.sessions[0].lever.theta_rad,
               later.lever.theta_rad - model.lever.theta_rad, 2e-3);
   EXPECT_NEAR(pooled.sessions[1].lever.x_m - pooled.sessions[0].lever.x_m, 0.024, 1e-3);
+}
+
+/// What the fit of these drives says of their sessions.
+std::vector<int> fitted_sessions(const MlEstimate& estimate) {
+  std::vector<int> sessions;
+  for (const RunFit& run : estimate.runs) sessions.push_back(run.session);
+  return sessions;
+}
+
+std::vector<Trajectory> circles(const DriveModel& model, int count, std::uint64_t seed) {
+  std::vector<Trajectory> runs;
+  for (int i = 0; i < count; ++i)
+    runs.push_back(simulation::study::synthetic_drive(
+        simulation::study::circle_course(1, (i % 2 == 0 ? 4 : -4) * std::numbers::pi), model,
+        "circle " + std::to_string(i + 1), seed + static_cast<std::uint64_t>(i)));
+  return runs;
+}
+
+/// The factors as they come out if nobody had moved the body: neither further off nor less certain. A quarter of the errors is
+/// what the places of two sessions cost in place of one.
+void expect_unharmed(const MlEstimate& moved, const MlEstimate& unmoved, const char* what) {
+  EXPECT_LT(moved.se.c_r, 1.25 * unmoved.se.c_r) << what;
+  EXPECT_LT(moved.se.b_m, 1.25 * unmoved.se.b_m) << what;
+  EXPECT_NEAR(moved.factors.c_r, unmoved.factors.c_r, unmoved.se.c_r) << what;
+  EXPECT_NEAR(moved.factors.b_m, unmoved.factors.b_m, unmoved.se.b_m) << what;
+}
+
+TEST(Sessions, AreFoundFromTheFitOfAllDrivesWhereNoDriveAloneShowsWhereTheBodySits) {
+  DriveModel day = astro_drive(), later = on_another_day(day);
+  const auto both = [&](auto drives, auto more) {
+    std::vector<Trajectory> runs = drives(day, kSeed);
+    append(runs, more(later, kSeed + 50));
+    std::vector<Trajectory> unmoved = drives(day, kSeed);
+    append(unmoved, more(day, kSeed + 50));
+    return std::pair{estimate_ml(runs, day.loaded), estimate_ml(unmoved, day.loaded)};
+  };
+  const auto four_circles = [](const DriveModel& model, std::uint64_t seed) {
+    return circles(model, 4, seed);
+  };
+  const auto three_squares = [](const DriveModel& model, std::uint64_t seed) {
+    return squares(model, 3, 3, seed);
+  };
+  for (const bool headings : {true, false}) {
+    day.headings = later.headings = headings;
+    const auto [squares_moved, squares_unmoved] = both(three_squares, three_squares);
+    EXPECT_EQ(fitted_sessions(squares_moved), (std::vector{0, 0, 0, 1, 1, 1})) << headings;
+    expect_unharmed(squares_moved, squares_unmoved, "squares");
+    const auto [mixed, mixed_unmoved] = both(three_squares, four_circles);
+    EXPECT_EQ(fitted_sessions(mixed), (std::vector{0, 0, 0, 1, 1, 1, 1})) << headings;
+    expect_unharmed(mixed, mixed_unmoved, "squares and circles");
+  }
+  day.headings = later.headings = true;
+  const auto [moved, unmoved] = both(four_circles, four_circles);
+  EXPECT_EQ(fitted_sessions(moved), (std::vector{0, 0, 0, 0, 1, 1, 1, 1}));
+  expect_unharmed(moved, unmoved, "circles");
+}
+
+TEST(Sessions, AreNotSplitByTheFitWhereNobodyMovedTheBody) {
+  DriveModel model = astro_drive();
+  for (const bool headings : {true, false})
+    for (const double windup_rad : {0.0, 0.02}) {
+      model.headings = headings;
+      model.windup_rad = windup_rad;  // spins of real tyres shift where the body seems to sit
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        std::vector<Trajectory> runs = squares(model, 4, 2, seed);
+        append(runs, circles(model, 2, 10 * seed));
+        EXPECT_EQ(estimate_ml(runs, model.loaded).sessions.size(), 1U)
+            << headings << ' ' << windup_rad << ' ' << seed;
+      }
+    }
 }
 
 }  // namespace
