@@ -21,8 +21,17 @@ void take(ByteView input) {
 }
 
 std::vector<Bytes> seeds() {
-  return {bytes_of(test::kMotive), bytes_of(test::kVicon), bytes_of(test::kTum), bytes_of(test::kEuroc),
-          bytes_of(test::kPlain)};
+  return {
+      bytes_of(test::kMotive),
+      bytes_of(test::kVicon),
+      bytes_of(test::kTum),
+      bytes_of(test::kEuroc),
+      bytes_of(test::kPlain),
+      bytes_of(
+          "NO_OF_FRAMES\t2\nFREQUENCY\t100\nBODY_NAMES\trobot\nrobot X\tY\tZ\tRoll\tPitch\tYaw\tResidual\n"
+          "1\t2\t3\t0\t0\t90\t0.5\n1\t2\t3\t0\t0\t91\t0.5\n"),
+      bytes_of("NO_OF_FRAMES\t2\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nDATA_INCLUDED\t3D\nMARKER_NAMES\tm1\n"
+               "1\t2\t3\n1\t2\t4\n")};
 }
 
 }  // namespace astro::fuzz
