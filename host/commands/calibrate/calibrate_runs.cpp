@@ -99,7 +99,8 @@ constexpr Advice kCalibrateRunsAdvice[] = {
     {calibration::PreparationProblem::nothing_in_common,
      ": check that they belong to the same drive, with 'astrolabe check-wiring' that no encoder is reversed, "
      "and in files of other programs whether each row of the wheels is the travel since the row before "
-     "(--per-interval)"},
+     "(--per-interval), and the units of the ground truth (--truth-unit, and theta_deg or theta_rad in "
+     "--truth-columns)"},
     {experiment::AnalysisProblem::clocks_run_apart,
      ": check that both files are of one drive, and that their times are seconds of a clock; if they are, "
      "--clock estimated takes the drive"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -334,12 +335,28 @@ void give_films(experiment::RunSet& set, const ImportOptions& options) {
 
 namespace {
 
+/// What holds for several drives is said once, behind what holds for each.
 void say_drives(const importing::ImportedDrives& drives) {
+  std::map<std::string, std::vector<std::string>> said_of;
+  for (std::size_t i = 0; i < drives.reports.size(); ++i)
+    for (const Remark& remark : drives.reports[i].remarks)
+      if (std::vector<std::string>& names = said_of[in_words(remark)];
+          names.empty() || names.back() != drives.set.names[i])
+        names.push_back(drives.set.names[i]);
   for (std::size_t i = 0; i < drives.reports.size(); ++i) {
     console::say(drives.set.names[i] + ": " + drives.reports[i].summary);
     for (const Remark& remark : drives.reports[i].remarks)
-      console::say(drives.set.names[i] + ": " + in_words(remark));
+      if (said_of[in_words(remark)].size() == 1) console::say(drives.set.names[i] + ": " + in_words(remark));
   }
+  for (const importing::DriveReport& report : drives.reports)
+    for (const Remark& remark : report.remarks) {
+      std::vector<std::string>& names = said_of[in_words(remark)];
+      if (names.size() < 2) continue;
+      const bool all = names.size() == drives.reports.size();
+      console::say(fmt::format("{}: {}", all ? "all drives" : fmt::format("{}", fmt::join(names, ", ")),
+                               in_words(remark)));
+      names.clear();
+    }
 }
 
 /// The wheels of all drives, and films that show them.

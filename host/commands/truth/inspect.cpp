@@ -57,8 +57,10 @@ std::string tracker_text(const truth::Inspection& tracker) {
                         tracker.bodies.size() + tracker.bodies_left_out == 1 ? "y" : "ies");
     text += facts->length_unit.empty() ? ", no unit of length stated (taken for metres)"
                                        : ", lengths in " + facts->length_unit;
-    if (!facts->rotation.empty()) text += ", " + facts->rotation;
-    if (facts->rotation_kind == truth::RotationKind::none) text += ", no orientation";
+    if (facts->rotation_kind == truth::RotationKind::none)
+      text += ", no orientation";
+    else if (!facts->rotation.empty())
+      text += ", " + facts->rotation;
     if (facts->rate_hz > 0) text += fmt::format(", {:.6g} Hz stated", facts->rate_hz);
     if (!facts->start_time.empty()) text += ", started " + facts->start_time;
     text = wrapped(text + '.');
@@ -76,7 +78,8 @@ std::string tracker_text(const truth::Inspection& tracker) {
                     body.median_period_s > 0 ? fmt::format("{:.4g}", 1 / body.median_period_s) : "-",
                     fmt::format("{}", body.lost.all()), fmt::format("{}", body.gaps),
                     fmt::format("{:.2f}", body.longest_gap_s),
-                    up_of(body) ? truth::axis_text(*up_of(body)) : "-", noise_text(body.noise)});
+                    up_of(body) && !body.facts.flat ? truth::axis_text(*up_of(body)) : "-",
+                    noise_text(body.noise)});
   text += console::table(rows);
   if (tracker.bodies_left_out > 0) text += fmt::format("and {} more bodies\n", tracker.bodies_left_out);
   for (const truth::BodyInspection& body : tracker.bodies) text += said(body.facts.remarks);
@@ -159,7 +162,11 @@ std::string wheels_text(const WheelInspection& wheels) {
   return wrapped("Wheels of a robot: time from " + columns.time + ", left from " +
                  importing::listed(columns.left) + ", right from " + importing::listed(columns.right) +
                  ", in " + columns.values + ". Travel from the first to the last row:") +
-         console::table(rows, "rrrrrr") + said(wheels.track.remarks);
+         console::table(rows, "rrrrrr") + said(wheels.track.remarks) +
+         (wheels.end_as_they_begin
+              ? wrapped("Both wheels end where they began: if each row is the travel since the row "
+                        "before, say so with --per-interval.")
+              : "");
 }
 
 std::string shown(const std::optional<double>& value) { return value ? fmt::format("{:.9g}", *value) : "-"; }

@@ -27,9 +27,9 @@ std::string option(const char* name, const std::string& value) {
 }
 
 std::string sizes(std::optional<WheelUnit> unit) {
-  if (!unit) return " --robot ROBOT";
   return std::string(" --wheel-diameter METRES") +
-         (*unit == WheelUnit::counts ? " --counts-per-turn COUNTS" : "") + " --wheelbase METRES";
+         (unit.value_or(WheelUnit::counts) == WheelUnit::counts ? " --counts-per-turn COUNTS" : "") +
+         " --wheelbase METRES";
 }
 
 std::string of_table(const ImportOptions& choices) {

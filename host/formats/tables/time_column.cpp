@@ -95,7 +95,15 @@ void TimeColumns::settle(Table& table) {
 
 std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns) {
   constexpr std::size_t kRowsLookedAt = 400;
-  if (columns.power) return TimeFormat{TimeKind::number, *columns.power};
+  if (columns.power) {
+    table.rewind();
+    std::optional<TimeKind> written;
+    while (!written && table.next() && !cell_number(table.cell(*columns.at), table.style()))
+      written = written_time(table.cell(*columns.at));
+    table.rewind();
+    if (written) return TimeFormat{*written, 0};
+    return TimeFormat{TimeKind::number, *columns.power};
+  }
   std::vector<double> times;  // without repeated ones: whole seconds may have hundreds of rows in each
   double last = 0, span = 0;
   bool several = false;

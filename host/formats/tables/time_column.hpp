@@ -35,7 +35,8 @@ struct TimeColumns {
   void settle(Table& table);
 };
 
-/// The format of the times, from their names or, if these state no unit, from the rows. Nothing if neither shows it.
+/// The format of the times: dates or times of day, also below a name with a unit, or numbers, whose unit is that of the name or,
+/// if it states none, follows from the rows. Nothing if neither shows it.
 /// Precondition: `columns` has been settled. Leaves the table before its first row.
 std::optional<TimeFormat> time_format(Table& table, const TimeColumns& columns);
 

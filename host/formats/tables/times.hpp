@@ -27,9 +27,9 @@ std::optional<std::int64_t> time_ns(std::string_view cell, TimeFormat format, Nu
 
 /// What is read as a time, for a message about what is not.
 inline constexpr std::string_view kTimesRead =
-    "a number, a time of day as 14:05:09.25 or 2:05:09.25 PM, or a date and time as 2024-05-31 14:05:09.25 "
-    "or 31.05.2024 "
-    "14:05:09.25";
+    "a number, a time of day as 14:05:09.25 or 2:05:09.25 PM, or a date and time as 2024-05-31 14:05:09.25, "
+    "31.05.2024 14:05:09.25 or 31/05/2024 14:05:09.25 (with slashes only after the 12th of a month, because "
+    "before it nothing shows which of the two numbers is the month)";
 
 /// Whether the cell is a date with a time, or a time of day.
 std::optional<TimeKind> written_time(std::string_view cell);

@@ -94,6 +94,13 @@ BagInspection inspect_bag(const fs::path& path) {
   return bag;
 }
 
+bool ends_as_it_begins(const std::vector<WheelSample>& samples, double WheelSample::*wheel) {
+  constexpr double kSame = 0.02;  // of the range
+  const auto [least, most] = std::ranges::minmax(samples, {}, wheel);
+  return most.*wheel > least.*wheel &&
+         std::abs(samples.back().*wheel - samples.front().*wheel) <= kSame * (most.*wheel - least.*wheel);
+}
+
 WheelInspection inspect_wheels(WheelTrack track) {
   WheelInspection out;
   out.track = std::move(track);
@@ -104,6 +111,8 @@ WheelInspection inspect_wheels(WheelTrack track) {
     out.longest_gap_s = std::max(out.longest_gap_s, seconds(samples[i].time_ns - samples[i - 1].time_ns));
   out.left = samples.back().left - samples.front().left;
   out.right = samples.back().right - samples.front().right;
+  out.end_as_they_begin =
+      ends_as_it_begins(samples, &WheelSample::left) && ends_as_it_begins(samples, &WheelSample::right);
   return out;
 }
 

@@ -42,6 +42,8 @@ struct WheelInspection {
   WheelTrack track;
   double rate_hz = 0, duration_s = 0, longest_gap_s = 0;
   double left = 0, right = 0;  // travel from the first to the last sample, in the track's unit
+  bool end_as_they_begin =
+      false;  // both wheels, although they turned: perhaps the rows are travel per interval
 };
 
 /// One of these is set; of a table that holds both wheels and poses, two are.

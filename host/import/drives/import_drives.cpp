@@ -219,10 +219,11 @@ double rate_hz(const std::vector<Sample>& samples) {
 }
 
 std::string summary_of(const ImportedTruth& truth, const truth::FloorFindings& floor) {
-  return fmt::format("; {} poses{} ({}) at {:.4g} Hz, {} lost; {} is up", truth.track.samples.size(),
-                     truth.track.name.empty() ? "" : " of '" + truth.track.name + "'",
-                     truth.track.facts.format, rate_hz(truth.track.samples), truth.lost.all(),
-                     truth::axis_text(floor.up));
+  const std::string text =
+      fmt::format("; {} poses{} ({}) at {:.4g} Hz, {} lost", truth.track.samples.size(),
+                  truth.track.name.empty() ? "" : " of '" + truth.track.name + "'", truth.track.facts.format,
+                  rate_hz(truth.track.samples), truth.lost.all());
+  return truth.track.facts.flat ? text : text + "; " + truth::axis_text(floor.up) + " is up";
 }
 
 /// The unit of time that was assumed, or "".

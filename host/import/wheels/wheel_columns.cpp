@@ -60,22 +60,44 @@ struct Wheel {
   Side side = Side::left;
   Quantity quantity = Quantity::counts;
   double to_si = 1;
+  std::string unit_text;  // as in the name
   bool per_interval = false;
-  bool sure = true;  // its unit is stated, or its name leaves no other
+  bool perhaps_per_interval = false;  // "d_left" may be a difference, or a distance
+  bool sure = true;                   // its unit is stated, or its name leaves no other
 
   bool same_kind(const Wheel& other) const {
-    return quantity == other.quantity && to_si == other.to_si && per_interval == other.per_interval;
+    return quantity == other.quantity && to_si == other.to_si && per_interval == other.per_interval &&
+           perhaps_per_interval == other.perhaps_per_interval;
   }
 };
 
-std::optional<Wheel> wheel_named(const ColumnName& name, std::size_t column) {
+/// A unit may stand in front of the side, too: "rpm_left", "rad_s_left". One letter there is no unit.
+void take_unit_in_front(ColumnName& name) {
+  if (name.unit || !name.unit_text.empty() || name.words.size() < 2) return;
+  for (std::size_t count = std::min<std::size_t>(2, name.words.size() - 1); count > 0; --count) {
+    const std::string text = count == 2 ? name.words[0] + '_' + name.words[1] : name.words[0];
+    const auto unit = tables::unit_named(text);
+    if (!unit || text.size() == 1 || text == "in") continue;
+    name.unit = unit;
+    name.unit_text = text;
+    name.words.erase(name.words.begin(), name.words.begin() + static_cast<std::ptrdiff_t>(count));
+    return;
+  }
+}
+
+std::optional<Wheel> wheel_named(ColumnName name, std::size_t column) {
+  take_unit_in_front(name);
   const auto side = side_of(name);
   if (!side || is_of_no_use(name)) return std::nullopt;
-  Wheel wheel{column, *side};
+  Wheel wheel;
+  wheel.column = column;
+  wheel.side = *side;
   wheel.per_interval = name.has({"delta", "diff", "increment", "interval"});
+  wheel.perhaps_per_interval = name.has({"d", "dl", "dr"});
   if (name.unit) {
     wheel.quantity = name.unit->quantity;
     wheel.to_si = name.unit->to_si;
+    wheel.unit_text = name.unit_text;
     return wheel;
   }
   if (!name.unit_text.empty()) return std::nullopt;  // volts, amperes, or what nobody knows
@@ -128,7 +150,8 @@ int rank_of(const Wheel& wheel) {
   constexpr std::array kOrder{Quantity::counts,       Quantity::angle,         Quantity::length,
                               Quantity::counts_speed, Quantity::angular_speed, Quantity::speed};
   const auto at = std::find(kOrder.begin(), kOrder.end(), wheel.quantity) - kOrder.begin();
-  return 2 * static_cast<int>(at) + (wheel.sure ? 0 : 20) + (wheel.per_interval ? 1 : 0);
+  return 2 * static_cast<int>(at) + (wheel.sure ? 0 : 20) +
+         (wheel.per_interval || wheel.perhaps_per_interval ? 1 : 0);
 }
 
 bool are_whole_numbers(tables::Table& table, const std::vector<std::size_t>& columns) {
@@ -147,6 +170,29 @@ bool are_whole_numbers(tables::Table& table, const std::vector<std::size_t>& col
     }
   table.rewind();
   return whole && any;
+}
+
+/// Whether these columns, after many different values, end at the value with which they began, as travel per row of a robot that
+/// stands at both ends does, and counters do not.
+bool end_as_they_begin(tables::Table& table, const std::vector<std::size_t>& columns) {
+  bool same = true;
+  for (const std::size_t column : columns) {
+    std::optional<double> first, last;
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    table.rewind();
+    while (table.next()) {
+      const auto value = tables::cell_number(table.cell(column), table.style());
+      if (!value) continue;
+      if (!first) first = value;
+      last = value;
+      least = std::min(least, *value);
+      most = std::max(most, *value);
+    }
+    constexpr double kSame = 0.1;  // of the range: a robot may begin to move in the first row
+    same = same && first && std::abs(*last - *first) <= kSame * (most - least);
+  }
+  table.rewind();
+  return same;
 }
 
 WheelUnit unit_of(Quantity quantity) {
@@ -213,12 +259,20 @@ WheelColumns wheel_columns(const std::vector<std::string>& names, tables::Table&
   if (out.left.size() > 3)
     refuse(table, names, fmt::format("{} columns are named as a left wheel", out.left.size()));
   out.speeds = !is_travel(kind.quantity);
-  out.per_interval = kind.per_interval && !out.speeds;
+  std::vector<std::size_t> columns = out.left;
+  columns.insert(columns.end(), out.right.begin(), out.right.end());
+  out.per_interval =
+      !out.speeds && (kind.per_interval || (kind.perhaps_per_interval && end_as_they_begin(table, columns)));
+  if (out.per_interval && !kind.per_interval)
+    out.remarks.push_back(
+        {fmt::format("{} ends as it begins, and is taken as the travel since the row before",
+                     tables::shown_cell(names[out.left.front()])),
+         WheelRemark::per_interval_assumed,
+         {names[out.left.front()]}});
   out.unit = unit_of(kind.quantity);
   out.scale = kind.to_si;
+  out.unit_text = kind.unit_text;
   if (!kind.sure) {
-    std::vector<std::size_t> columns = out.left;
-    columns.insert(columns.end(), out.right.begin(), out.right.end());
     if (out.speeds)
       refuse(table, names,
              tables::shown_cell(names[out.left.front()]) +

@@ -16,6 +16,7 @@ struct WheelColumns {
   std::vector<std::size_t> left, right;  // one of each, or those of a robot with several wheels on a side
   WheelUnit unit = WheelUnit::counts;
   double scale = 1;           // of a value to radians, metres or counts, or these in a second
+  std::string unit_text;      // as above the columns, "" if it is not stated
   bool per_interval = false;  // each row is the travel since the row before
   bool speeds = false;        // each row is the speed at its time
   std::vector<Remark> remarks;
@@ -25,7 +26,7 @@ struct WheelColumns {
 ///
 /// Sides       left, right, l, r; words with them (leftWheel, wl, encR); FL, FR, RL, RR and front and rear for four wheels
 /// Quantities  by the unit (host/formats/tables/units.hpp): counts, angles, travel, or speeds, if there is none of these;
-///             "delta", "per_interval": travel per interval. Encoders without a unit count; other names without one are
+///             "delta", "per_interval": travel per interval, and "d" where it ends as it begins. Encoders without a unit count; other names without one are
 ///             counts if all cells are whole numbers.
 /// Left out    what was commanded (cmd, target, ...), and currents, voltages and the like.
 ///

@@ -176,7 +176,7 @@ class WheelRows {
   std::string values() const {
     std::string text(unit_name(columns_.unit));
     if (columns_.speeds) text += "/s";
-    if (columns_.scale != 1) text = fmt::format("times {:.6g} {}", columns_.scale, text);
+    if (columns_.scale != 1) text = columns_.unit_text;
     return text + (columns_.per_interval ? ", travel per row" : "");
   }
 
@@ -252,7 +252,8 @@ class WheelRows {
     for (Wheels& pair : pairs_) leave_out_repeated(pair);
     if (const std::size_t left_out = rows - first.size(); left_out > 0)
       remarks.push_back({name_ + " has " + std::to_string(left_out) +
-                             " rows that repeat the time of the row above; they were left out",
+                             (left_out == 1 ? " row that repeats" : " rows that repeat") +
+                             " the time of the row above; left out",
                          WheelTableProblem::times_repeated,
                          {name_, std::to_string(left_out)}});
   }
@@ -288,7 +289,9 @@ class WheelRows {
     remarks.insert(remarks.begin(), columns_.remarks.begin(), columns_.remarks.end());
     if (incomplete_ > 0)
       remarks.push_back(
-          {name_ + " has " + std::to_string(incomplete_) + " rows with empty cells; they were left out",
+          {name_ + " has " + std::to_string(incomplete_) +
+               (incomplete_ == 1 ? " row with an empty cell; it was" : " rows with empty cells; they were") +
+               " left out",
            WheelTableProblem::rows_incomplete,
            {name_, std::to_string(incomplete_)}});
     if (const auto range_s = times_.started_again_s())

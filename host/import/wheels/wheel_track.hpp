@@ -11,11 +11,12 @@
 /// Travel of any robot's wheels as it was recorded, before any geometry is applied.
 namespace astro::importing {
 
-/// What was inferred about wheels, or is odd about them. Values: the first column (counts_assumed), the unit (time_unit_assumed), the part of the travel in percent that the sampling leaves uncertain
+/// What was inferred about wheels, or is odd about them. Values: the first column (counts_assumed, per_interval_assumed), the unit (time_unit_assumed), the part of the travel in percent that the sampling leaves uncertain
 /// (speeds_integrated), the side and by how many percent its wheels differ in travel (sides_differ), the side and the
 /// range (continued), the file and the time in seconds (first_left_out, restart_joined).
 enum class WheelRemark {
   counts_assumed,
+  per_interval_assumed,
   time_unit_assumed,
   speeds_integrated,
   sides_differ,
@@ -50,7 +51,7 @@ enum class WheelClock : std::uint8_t {
 struct ReadColumns {
   std::string time;
   std::vector<std::string> left, right;
-  std::string values;  // what the cells are: "counts", "rad/s", "m, travel per row"
+  std::string values;  // what the cells are: "counts", "rpm", "m, travel per row"
 };
 
 /// Times increase strictly; travel is continuous and cumulative.

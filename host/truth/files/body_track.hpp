@@ -56,6 +56,7 @@ struct TrackFacts {
   std::string format;       // "Motive CSV 1.23"
   double rate_hz = 0;       // 0: not stated
   std::string length_unit;  // "Meters", "mm"; "" if the file states none, and metres are assumed
+  bool flat = false;        // positions on the floor, without heights
   RotationKind rotation_kind = RotationKind::none;
   std::string rotation;    // "Euler angles YXZ in degrees"
   std::string start_time;  // "2020-12-23T01:18:10.123", local, of a zone that no file names; "" if not stated

@@ -317,6 +317,7 @@ void describe_plain(const PlainHeader& header, TrackFacts& facts) {
   facts.kind = FileKind::plain;
   facts.format = "CSV";
   facts.length_unit = header.length_unit;
+  facts.flat = header.columns[Slot::z] < 0;
   facts.rotation_kind = header.columns.rotation;
   facts.rotation = header.columns.rotation == RotationKind::quaternion ? "quaternion"
                    : header.columns.rotation == RotationKind::euler    ? "roll, pitch and yaw"
@@ -439,6 +440,12 @@ void settle_angles(Table& table, PlainHeader& header, TrackFacts& facts) {
   settle_sense(match, header, facts);
 }
 
+[[noreturn]] void refuse_time(const Table& table, const PlainHeader& header, std::string_view cell) {
+  table.rows().refuse(header.columns[Slot::time] + 1,
+                      tables::shown_cell(cell) + " is no time, which is " + std::string(tables::kTimesRead),
+                      TrackProblem::no_time, {tables::cut_cell(cell)});
+}
+
 /// Throws astro::Error if the table does not show in which unit its times are.
 tables::TimeFormat settle_times(Table& table, PlainHeader& header, TrackFacts& facts) {
   header.time.settle(table);
@@ -446,7 +453,9 @@ tables::TimeFormat settle_times(Table& table, PlainHeader& header, TrackFacts& f
   header.columns[Slot::time_fraction] = header.time.fraction ? static_cast<int>(*header.time.fraction) : -1;
   const auto format = tables::time_format(table, header.time);
   if (!format) {
-    if (table.next())
+    if (table.next() && !tables::cell_number(table.cell(*header.time.at), table.style()))
+      refuse_time(table, header, table.cell(*header.time.at));
+    if (!table.cells().empty())
       table.rows().refuse(header.columns[Slot::time] + 1,
                           "the column does not show the unit of its times: s, ms, us and ns are possible",
                           TrackProblem::time_unit_unknown);
@@ -498,11 +507,7 @@ BodyTrack read_plain(const PlainTable& plain, std::string_view body) {
     row.read(table.rows());
     const auto row_ns = static_cast<std::int64_t>(track.samples.size()) * 1'000'000'000;
     const auto time_ns = timed ? times.read(row.time(), row.time_fraction()) : row_ns;
-    if (!time_ns)
-      table.rows().refuse(
-          header.columns[Slot::time] + 1,
-          tables::shown_cell(row.time()) + " is no time, which is " + std::string(tables::kTimesRead),
-          TrackProblem::no_time, {tables::cut_cell(row.time())});
+    if (!time_ns) refuse_time(table, header, row.time());
     TrackedPose sample = row.pose();
     sample.time_ns = *time_ns;
     builder.add_stamped(sample, table.rows());

@@ -75,11 +75,26 @@ std::vector<Window> windows_of(const std::vector<TrackedPose>& samples) {
   return out;
 }
 
-/// The variance of the position that 5 % of the windows stay below, by which a rest is recognised.
-double stillest_spread(const std::vector<Window>& windows) {
+double spread_of(const Window& window) {
+  return window.variance[0] + window.variance[1] + window.variance[2];
+}
+
+/// The windows in which the body moves no more than its noise explains, as far as a window shows it by itself. Behind a short
+/// stand some begin or end in motion, so those count whose variance is like that of the quietest quarter.
+std::vector<Window> still_ones(std::vector<Window> windows) {
+  constexpr double kMoved = 6, kSpread = 4;           // standard errors; ratio of variances
+  constexpr double kSlow_m = 5e-4, kSlow_rad = 2e-3;  // in half a window: 2 mm/s and 8 mrad/s
+  constexpr double kCertain = 10;                     // times as much is a motion, however large the noise
+  std::erase_if(windows, [](const Window& window) {
+    const double motion = std::max(window.moved_m / kSlow_m, window.moved_rad / kSlow_rad);
+    return motion > kCertain || (window.moved > kMoved && motion > 1);
+  });
+  if (windows.empty()) return windows;
   std::vector<double> spreads;
-  for (const Window& w : windows) spreads.push_back(w.variance[0] + w.variance[1] + w.variance[2]);
-  return at_rank(std::move(spreads), windows.size() / 20);
+  for (const Window& window : windows) spreads.push_back(spread_of(window));
+  const double still = at_rank(std::move(spreads), windows.size() / 4);
+  std::erase_if(windows, [&](const Window& window) { return spread_of(window) > kSpread * still + 1e-18; });
+  return windows;
 }
 
 /// The standard deviations in windows of half a second in which the body moves no more than its noise
@@ -88,20 +103,10 @@ double stillest_spread(const std::vector<Window>& windows) {
 ///
 /// A stretch in which the tracker repeats the same numbers (invalid samples) is no rest.
 std::optional<RestNoise> find_rest_noise(const BodyTrack& track) {
-  constexpr double kMoved = 6, kSpread = 9;           // standard errors; ratio of variances
-  constexpr double kSlow_m = 5e-4, kSlow_rad = 2e-3;  // in half a window: 2 mm/s and 8 mrad/s
-  constexpr double kCertain = 10;                     // times as much is a motion, however large the noise
-  const std::vector<Window> windows = windows_of(track.samples);
-  if (windows.empty()) return std::nullopt;
-  const double still = stillest_spread(windows);
   RestNoise out;
   Coordinates sums{};
   double degrees_of_freedom = 0;
-  for (const Window& window : windows) {
-    const double spread = window.variance[0] + window.variance[1] + window.variance[2];
-    const double motion = std::max(window.moved_m / kSlow_m, window.moved_rad / kSlow_rad);
-    if (spread > kSpread * still + 1e-18 || (window.moved > kMoved && motion > 1)) continue;
-    if (motion > kCertain) continue;
+  for (const Window& window : still_ones(windows_of(track.samples))) {
     out.rest_s += 1e-9 * kWindow_ns;
     const double weight = static_cast<double>(window.count - 2);
     for (std::size_t k = 0; k < 6; ++k) sums[k] += weight * window.variance[k];

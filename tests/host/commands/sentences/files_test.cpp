@@ -218,21 +218,35 @@ TEST_F(FileSentences, TellWhatIsWrongWithAFileOfATracker) {
   });
 }
 
+TEST_F(FileSentences, SayOnceWhatHoldsForAllDrives) {
+  calibration::Trajectory later = run_;
+  later.wheels.pop_back();
+  test::write_counts("w2.csv", later);
+  std::string rows;
+  for (const calibration::BodySample& at : run_.truth)
+    rows += fmt::format("{:.6f},{:.6f},{:.6f},{:.6f}\n", at.time_s, at.x_m, at.y_m, at.theta_rad);
+  write("unitless.csv", "time_s,x,y,yaw\n" + rows);
+  EXPECT_EQ(notices_of(files("w.csv", "unitless.csv") + " --wheels w2.csv --truth unitless.csv"),
+            "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost\n"
+            "w2: 2602 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost\n"
+            "all drives: the unit of length is not stated: metres are assumed\n"
+            "all drives: the unit of the heading is not stated: radians are assumed\n");
+}
+
 TEST_F(FileSentences, TellWhatLooksOdd) {
   write("unitless.csv", "time,x,y,yaw\n" + hundredfold());
   test::write_tum("down.tum", run_, test::z_down);
   EXPECT_EQ(
       notices_of(files("w.csv", "unitless.csv")),
-      "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost; z is up\n"
+      "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost\n"
       "w: the unit of the heading is not stated: radians are assumed\n"
       "w: the unit of the time is not stated: s is assumed\n"
       "w: the path is 104.2 times as long as that of the wheels, so one of the two has another unit of "
       "length than it seems; the file states none, and its positions were converted: check the units\n");
-  EXPECT_EQ(
-      notices_of(files("w.csv", "unitless.csv", " --truth-unit cm")),
-      "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost; z is up\n"
-      "w: the unit of the heading is not stated: radians are assumed\n"
-      "w: the unit of the time is not stated: s is assumed\n");
+  EXPECT_EQ(notices_of(files("w.csv", "unitless.csv", " --truth-unit cm")),
+            "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost\n"
+            "w: the unit of the heading is not stated: radians are assumed\n"
+            "w: the unit of the time is not stated: s is assumed\n");
   EXPECT_EQ(
       notices_of(files("w.csv", "down.tum")),
       "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (TUM) at 60 Hz, 0 lost; -z is up\n"

@@ -27,6 +27,7 @@ using astro::support::measured;
 using astro::support::Taken;
 using astro::support::Tells;
 using astro::support::told_by;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -258,6 +259,34 @@ TEST(WheelCsv, NamesInAnyStyleAreUnderstood) {
     EXPECT_EQ(track.unit, WheelUnit::counts) << text;
     EXPECT_THAT(track.samples, counts) << text;
   }
+}
+
+TEST(WheelCsv, DifferencesThatAreNamedWithALetterAreTravelPerIntervalIfTheyEndAsTheyBegin) {
+  const WheelTrack travel = wheels("time_s,d_left,d_right\n0,0,0\n1,50,40\n2,50,40\n3,1,0\n");
+  EXPECT_THAT(travel.samples.back(), (WheelSample{3'000'000'000, 101, 80}));
+  EXPECT_THAT(travel.remarks, Contains(Tells(WheelRemark::per_interval_assumed, "d_left")));
+  EXPECT_THAT(wheels("time_s,dL,dR\n0,0,0\n1,50,40\n2,100,80\n3,101,80\n").samples.back(),
+              (WheelSample{3'000'000'000, 101, 80}))
+      << "distances go on";
+  EXPECT_THAT(wheels("time_s,left,right,d_left,d_right\n0,7,7,0,0\n1,9,8,2,1\n2,9,8,0,0\n").samples.back(),
+              (WheelSample{2'000'000'000, 9, 8}));
+}
+
+TEST(WheelCsv, AUnitMayStandInFrontOfTheSide) {
+  const WheelTrack track = wheels("t_s,rpm_left,rpm_right\n0,60,60\n1,60,60\n");
+  EXPECT_NEAR(track.samples.back().left, 2 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(track.columns.values, "rpm");
+  EXPECT_EQ(wheels("t_s,rad_s_l,rad_s_r\n0,1,1\n1,1,1\n").columns.values, "rad/s");
+  EXPECT_EQ(wheels("t_s,mm_left,mm_right\n0,1,1\n1,2,2\n").samples.back().left, 0.002);
+  EXPECT_EQ(wheels("t_s,m_left,m_right\n0,1,1\n1,2,2\n").unit, WheelUnit::counts) << "m is a motor there";
+}
+
+TEST(WheelCsv, DatesMayStandBelowANameWithAUnit) {
+  EXPECT_THAT(
+      wheels("time_s,left_counts,right_counts\n2024-05-01T10:00:00Z,1,2\n2024-05-01T10:00:00.5Z,3,5\n")
+          .samples.back()
+          .time_ns,
+      1'714'557'600'500'000'000);
 }
 
 TEST(WheelCsv, WhatANameDoesNotSayIsSaidOrAskedFor) {

@@ -383,11 +383,9 @@ TEST_F(Files, AreInspectedWithTheCommandThatCalibrates) {
     std::string file;
     std::vector<std::pair<std::string, std::string>> filled_in;  // in place of capitals
   };
-  const std::string sizes = "--wheel-diameter 0.084 --counts-per-turn 4096 --wheelbase 0.29";
-  for (const Case& one :
-       {Case{ticks, {{"TRUTH", take}, {"COUNTS", "4096"}}},
-        Case{take, {{"WHEELS", "'" + ticks + "'"}, {"--robot ROBOT", sizes}}}, Case{bag, {}},
-        Case{at("drive.bag"), {{"TOPIC", "/vicon/tf"}, {"COUNTS", "4096"}}}}) {
+  for (const Case& one : {Case{ticks, {{"TRUTH", take}, {"COUNTS", "4096"}}},
+                          Case{take, {{"WHEELS", "'" + ticks + "'"}, {"COUNTS", "4096"}}}, Case{bag, {}},
+                          Case{at("drive.bag"), {{"TOPIC", "/vicon/tf"}, {"COUNTS", "4096"}}}}) {
     const Outcome inspected = astrolabe({"inspect", one.file, "--json"});
     ASSERT_EQ(inspected.code, 0) << inspected.err;
     std::string command = support::parse_json(inspected.out)["command"];

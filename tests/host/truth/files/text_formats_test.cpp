@@ -320,6 +320,16 @@ TEST(PlainCsv, HeadingsOfACompassAreTurnedRound) {
   }
 }
 
+TEST(PlainCsv, AWordInPlaceOfATimeIsNoQuestionOfUnits) {
+  EXPECT_THAT([] { read_track("time,x_m,y_m\nabc,1,2\ndef,1,2\n", "p.csv"); },
+              ThrowsTelling(TrackProblem::no_time, "p.csv", "2", "1", "abc"));
+}
+
+TEST(PlainCsv, WithoutHeightsIsFlat) {
+  EXPECT_TRUE(read_track("time_s,x_m,y_m\n0,1,2\n1,1,2\n", "p.csv").facts.flat);
+  EXPECT_FALSE(read_track("time_s,x_m,y_m,z_m\n0,1,2,3\n1,1,2,3\n", "p.csv").facts.flat);
+}
+
 TEST(PlainCsv, UnitsOfTwoSpellingsAreOne) {
   EXPECT_EQ(read_track("time_s,x_m,y [meters]\n0,1,2\n", "x.csv").samples[0].pose.y_m, 2);
   EXPECT_EQ(refusal("time_s,x_m,y_m,roll_deg,pitch_rad,yaw_rad\n0,1,2,0,0,0\n").kind,

@@ -48,6 +48,29 @@ TEST(Inspection, NoiseIsThatOfTheRestsAndNotOfTheDrive) {
   EXPECT_NEAR(noise->sd_rad, 2e-3, 1.6e-4);
 }
 
+// A stand of a good second at either end of a minute. The windows in which the robot begins to move or comes to a stop have up
+// to three times the noise, and there are as many of them as of those in which it stands.
+TEST(Inspection, NoiseIsThatOfShortRestsWithoutTheMotionBeforeAndAfterThem) {
+  for (int first = 108; first <= 145; first += 4) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal(0, 1e-4);
+    BodyTrack track;
+    for (int i = 0; i < 6000; ++i) {
+      const double s =
+          0.01 * std::max(0, std::min(i, 6000 - i) - first);  // since the motion began, or until it ends
+      const double way_m = std::min(0.25 * s * s, 0.09 + 0.3 * (s - 0.6));
+      track.samples.push_back(
+          {i * std::int64_t{10'000'000},
+           {(i < 3000 ? 1 : -1) * way_m + normal(random), normal(random), normal(random), 0, 0, 0, 1},
+           true});
+    }
+    const auto noise = inspect(track).noise;
+    ASSERT_TRUE(noise.has_value()) << first;
+    // 200 samples know a standard deviation to 5 %; four times that, and a tenth for the first millimetre of a motion.
+    EXPECT_NEAR(noise->sd_m[0], 1e-4, 3e-5) << first;
+  }
+}
+
 TEST(Inspection, ASpinAboutTheTrackedPointIsNoRest) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal(0, 1);
