@@ -3,12 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-#include <complex>
-#include <iterator>
-#include <numbers>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -17,237 +12,15 @@
 #include "host/formats/tables/table.hpp"
 #include "host/formats/tables/time_column.hpp"
 #include "host/formats/tables/units.hpp"
+#include "host/truth/files/heading_match.hpp"
+#include "host/truth/files/plain_columns.hpp"
 #include "host/truth/files/pose_columns.hpp"
-#include "host/truth/files/rotations.hpp"
 #include "host/truth/files/track_problem.hpp"
 
 namespace astro::truth {
 namespace {
 
 using tables::Table;
-
-constexpr std::size_t kMostBodies = 200;
-
-bool is_unit(std::string_view text) {
-  return tables::metres_per(text) || tables::radians_per(text) || tables::ns_power(text);
-}
-
-bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
-bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
-
-/// In lower case, with an underscore where a capital letter begins a word: "posX" -> "pos_x".
-std::string with_underscores(std::string_view name) {
-  std::string out;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (i > 0 && is_upper(name[i]) && is_lower(name[i - 1])) out += '_';
-    out += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
-  }
-  return out;
-}
-
-/// A column's name taken apart.
-struct ColumnName {
-  std::string stem;  // lower case, without the unit: "pose.position.x"
-  std::string last;  // behind the last separator: "x"
-  std::string body;  // what is before that and before words such as pose and position
-  std::string unit;  // "" if there is none
-};
-
-/// "/mocap/pose/position/" -> "/mocap"
-std::string body_before(std::string stem) {
-  static constexpr std::string_view kWords[] = {
-      "pose", "position",   "pos",  "translation", "transform", "p",          "q",    "rotation",
-      "rot",  "quaternion", "quat", "orientation", "t",         "coordinate", "euler"};
-  while (true) {
-    while (!stem.empty() && std::string_view("./_ ").find(stem.back()) != std::string_view::npos)
-      stem.pop_back();
-    const std::string_view word = std::string_view(stem).substr(stem.find_last_of("./_ ") + 1);
-    if (std::find(std::begin(kWords), std::end(kWords), word) == std::end(kWords)) return stem;
-    stem.resize(stem.size() - word.size());
-  }
-}
-
-ColumnName taken_apart(std::string_view cell) {
-  ColumnName out;
-  out.stem = with_underscores(cell.substr(0, 200));
-  if (const std::size_t open = out.stem.find_last_of("([");
-      open != std::string::npos && open > 0 && (out.stem.back() == ')' || out.stem.back() == ']')) {
-    out.unit = out.stem.substr(open + 1, out.stem.size() - open - 2);
-    out.stem.resize(open);
-    while (!out.stem.empty() && (out.stem.back() == ' ' || out.stem.back() == '_')) out.stem.pop_back();
-  } else if (const std::size_t at = out.stem.find_last_of("_ ");
-             at != std::string::npos && at > 0 && is_unit(std::string_view(out.stem).substr(at + 1))) {
-    out.unit = out.stem.substr(at + 1);
-    out.stem.resize(at);
-  }
-  for (const std::string_view end : {"pos", "position", "coordinate", "coord"})
-    if (out.stem.size() > end.size() && out.stem.ends_with(end) &&
-        std::string_view("_ .").find(out.stem[out.stem.size() - end.size() - 1]) != std::string_view::npos)
-      out.stem.resize(out.stem.size() - end.size() - 1);
-  out.last = out.stem.substr(out.stem.find_last_of("./_ ") + 1);
-  out.body = body_before(out.stem.substr(0, out.stem.size() - out.last.size()));
-  return out;
-}
-
-/// Whether one of the words in `text` begins with one of `beginnings`.
-bool has_word(const std::string& text, std::initializer_list<std::string_view> beginnings) {
-  for (std::size_t at = 0; at < text.size();
-       at = text.find_first_of("./_ ", at), at += at != text.npos ? 1 : 0) {
-    const std::string_view rest = std::string_view(text).substr(at);
-    for (const std::string_view beginning : beginnings) {
-      if (rest.substr(0, beginning.size()) == beginning) return true;
-    }
-  }
-  return false;
-}
-
-/// What a column holds by its name; nothing if it is of no use here.
-std::optional<Slot> slot_named(const ColumnName& name) {
-  if (has_word(name.stem,
-               {"vel", "twist", "linear", "angular", "acc", "cov", "std", "sigma", "rate", "bias"}))
-    return std::nullopt;
-  static constexpr std::pair<std::string_view, Slot> kNames[] = {{"x", Slot::x},
-                                                                 {"y", Slot::y},
-                                                                 {"z", Slot::z},
-                                                                 {"tx", Slot::x},
-                                                                 {"ty", Slot::y},
-                                                                 {"tz", Slot::z},
-                                                                 {"px", Slot::x},
-                                                                 {"py", Slot::y},
-                                                                 {"pz", Slot::z},
-                                                                 {"qx", Slot::rx},
-                                                                 {"qy", Slot::ry},
-                                                                 {"qz", Slot::rz},
-                                                                 {"qw", Slot::rw},
-                                                                 {"theta", Slot::heading},
-                                                                 {"yaw", Slot::heading},
-                                                                 {"heading", Slot::heading},
-                                                                 {"psi", Slot::heading},
-                                                                 {"th", Slot::heading},
-                                                                 {"orientation", Slot::heading},
-                                                                 {"roll", Slot::roll},
-                                                                 {"pitch", Slot::pitch}};
-  const bool turns = has_word(name.stem, {"orient", "quat", "rot", "q_", "q."});
-  const auto* const found = std::find_if(std::begin(kNames), std::end(kNames),
-                                         [&](const auto& entry) { return entry.first == name.last; });
-  if (turns && name.last == "w") return Slot::rw;
-  if (found == std::end(kNames)) return std::nullopt;
-  if (turns && found->second <= Slot::z && found->second >= Slot::x)
-    return static_cast<Slot>(static_cast<int>(found->second) + static_cast<int>(Slot::rx) -
-                             static_cast<int>(Slot::x));
-  return found->second;
-}
-
-struct PlainHeader {
-  std::string body;
-  PoseColumns columns;
-  tables::TimeColumns time;
-  std::string length_unit, angle_unit;
-};
-
-void take_unit(const tables::Rows& rows, Slot slot, int column, const std::string& unit, PlainHeader& out) {
-  if (unit.empty()) return;
-  const bool angle = slot >= Slot::heading;
-  std::string& known = angle ? out.angle_unit : out.length_unit;
-  const bool fits = angle ? tables::radians_per(unit).has_value() : tables::metres_per(unit).has_value();
-  if (!fits)
-    rows.refuse(column + 1, "the unit " + tables::shown_cell(unit) + " does not fit the column",
-                TrackProblem::unit_of_other_quantity, {tables::cut_cell(unit)});
-  const auto factor = [&](const std::string& one) {
-    return angle ? tables::radians_per(one) : tables::metres_per(one);
-  };
-  if (!known.empty() && factor(known) != factor(unit))
-    rows.refuse(column + 1,
-                std::string(angle ? "the angles" : "the positions") + " have different units, " +
-                    tables::shown_cell(known) + " and " + tables::shown_cell(unit),
-                TrackProblem::units_differ, {tables::cut_cell(known), tables::cut_cell(unit)});
-  known = unit;
-}
-
-/// The columns of the body of this name, which is added if it is new.
-PlainHeader& header_of(std::vector<PlainHeader>& headers, const std::string& body) {
-  const auto found = std::find_if(headers.begin(), headers.end(), [&](auto& h) { return h.body == body; });
-  if (found != headers.end()) return *found;
-  headers.emplace_back();
-  headers.back().body = body;
-  return headers.back();
-}
-
-/// Uses the four columns of a quaternion, else the three angles, else a heading, else no rotation.
-void settle_columns(PlainHeader& header, const tables::TimeColumns& time, tables::NumberStyle style) {
-  PoseColumns& columns = header.columns;
-  columns.style = style;
-  if (!header.time.at) header.time = time;
-  columns[Slot::time] = header.time.at ? static_cast<int>(*header.time.at) : -1;
-  constexpr std::array kParts{Slot::rx, Slot::ry, Slot::rz, Slot::rw};
-  const auto all = [&](const auto& slots) {
-    return std::all_of(slots.begin(), slots.end(), [&](Slot slot) { return columns[slot] >= 0; });
-  };
-  if (all(kParts)) {
-    columns.rotation = RotationKind::quaternion;
-  } else if (all(std::array{Slot::roll, Slot::pitch, Slot::heading})) {
-    columns.rotation = RotationKind::euler;
-    columns.euler_order = "ZYX";
-    columns[Slot::rx] = columns[Slot::roll];
-    columns[Slot::ry] = columns[Slot::pitch];
-    columns[Slot::rz] = columns[Slot::heading];
-    columns[Slot::rw] = -1;
-  } else {
-    columns.rotation = columns[Slot::heading] >= 0 ? RotationKind::heading : RotationKind::none;
-    for (const Slot slot : kParts) columns[slot] = -1;
-  }
-  columns[Slot::roll] = columns[Slot::pitch] = -1;
-  if (columns.rotation != RotationKind::heading) columns[Slot::heading] = -1;
-  columns.metres = header.length_unit.empty() ? 1 : *tables::metres_per(header.length_unit);
-  columns.radians = header.angle_unit.empty() ? 1 : *tables::radians_per(header.angle_unit);
-}
-
-bool has_two_rows(Table table) {
-  table.rewind();
-  return table.next() && table.next() && !table.next();
-}
-
-/// The bodies that have a time and a position, each by what its columns' names begin with. A table of two rows needs no time:
-/// they are the ends of a drive.
-std::vector<PlainHeader> plain_headers(const Table& table, const std::vector<std::string>& names) {
-  std::vector<PlainHeader> headers;
-  tables::TimeColumns first_time;  // of all bodies that have none of their own
-  for (std::size_t i = 0; i < names.size() && headers.size() < kMostBodies; ++i) {
-    const ColumnName name = taken_apart(names[i]);
-    if (const auto time = tables::time_name(names[i])) {
-      if (!first_time.at || first_time.stem == time->stem)
-        first_time.take(i, *time);
-      else
-        header_of(headers, name.body).time.take(i, *time);
-      continue;
-    }
-    const auto slot = slot_named(name);
-    if (!slot) continue;
-    PlainHeader& header = header_of(headers, name.body);
-    if (header.columns[*slot] >= 0) continue;
-    header.columns[*slot] = static_cast<int>(i);
-    if (*slot < Slot::rx || *slot > Slot::rw)
-      take_unit(table.rows(), *slot, static_cast<int>(i), name.unit, header);
-  }
-  for (PlainHeader& header : headers) settle_columns(header, first_time, table.style());
-  const bool ends = !first_time.at && has_two_rows(table);
-  std::erase_if(headers, [ends](const PlainHeader& header) {
-    const PoseColumns& columns = header.columns;
-    return columns[Slot::x] < 0 || columns[Slot::y] < 0 || (columns[Slot::time] < 0 && !ends);
-  });
-  return headers;
-}
-
-/// The column with the number of the tag that a row is about; -1 if there is none.
-int tag_column(const std::vector<std::string>& names) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string name = with_underscores(names[i]);
-    if (name == "id" || name == "tag" || name == "marker" || name == "tag_id" || name == "marker_id" ||
-        name == "body_id")
-      return static_cast<int>(i);
-  }
-  return -1;
-}
 
 /// What is written in the column of tags, if several tags are; empty otherwise.
 std::vector<BodyName> tags_in(Table& table, int column) {
@@ -328,94 +101,11 @@ void describe_plain(const PlainHeader& header, TrackFacts& facts) {
         {"the unit of length is not stated: metres are assumed", TrackRemark::length_unit_assumed});
 }
 
-/// How well the direction of motion follows the heading if its unit has so many radians: 1 if they differ by a constant, 0 if
-/// they have nothing in common.
-class DirectionMatch {
- public:
-  explicit DirectionMatch(double radians) : radians_(radians) {}
-
-  void take(double direction_rad, double heading) {
-    for (const std::size_t sense : {0U, 1U}) {
-      const double apart = direction_rad + (sense == 0 ? -1 : 1) * radians_ * heading;
-      forward_[sense] += std::polar(1.0, apart);
-      either_way_[sense] += std::polar(1.0, 2 * apart);
-    }
-    ++count_;
-  }
-  /// Of a robot that may drive backwards, in a table that may be a mirror image.
-  double share() const {
-    return std::max(std::abs(either_way_[0]), std::abs(either_way_[1])) / std::max(1, count_);
-  }
-  /// Of one that drives one way. On a square, driven either way, both senses fit.
-  double forward_share(bool clockwise) const {
-    return std::abs(forward_[clockwise ? 1 : 0]) / std::max(1, count_);
-  }
-
- private:
-  double radians_;
-  std::complex<double> forward_[2], either_way_[2];  // by sense: counter-clockwise, clockwise
-  int count_ = 0;
-};
-
-/// How well the headings of a table match the directions of its motion, by their unit.
-struct HeadingMatch {
-  DirectionMatch in_radians{1}, in_degrees{*tables::radians_per("deg")};
-  double most_angle = 0;
-
-  HeadingMatch(Table& table, const PoseColumns& columns, Slot heading) {
-    const double long_enough = kShareOfExtent * extent(table, columns, heading);
-    std::optional<std::array<double, 2>> from;
-    table.rewind();
-    while (table.next()) {
-      const auto x = number(table, columns[Slot::x]), y = number(table, columns[Slot::y]),
-                 angle = number(table, columns[heading]);
-      if (!x || !y || !angle) continue;
-      if (from) {
-        const double dx = *x - (*from)[0], dy = *y - (*from)[1];
-        if (std::hypot(dx, dy) < long_enough || std::hypot(dx, dy) == 0) continue;
-        in_radians.take(std::atan2(dy, dx), *angle);
-        in_degrees.take(std::atan2(dy, dx), *angle);
-      }
-      from = {*x, *y};
-    }
-    table.rewind();
-  }
-
-  bool are_degrees() const {
-    constexpr double kClear = 0.05;
-    if (std::abs(in_degrees.share() - in_radians.share()) > kClear)
-      return in_degrees.share() > in_radians.share();
-    return most_angle > 2.1 * std::numbers::pi;  // more than a turn, on a straight way
-  }
-
- private:
-  static constexpr double kShareOfExtent = 0.02;
-
-  static std::optional<double> number(const Table& table, int column) {
-    return tables::cell_number(table.cell(static_cast<std::size_t>(column)), table.style());
-  }
-
-  /// The longer side of the area in which the body moves.
-  double extent(Table& table, const PoseColumns& columns, Slot heading) {
-    std::array<double, 2> least{HUGE_VAL, HUGE_VAL}, most{-HUGE_VAL, -HUGE_VAL};
-    table.rewind();
-    while (table.next()) {
-      for (const std::size_t axis : {0U, 1U}) {
-        const auto value = number(table, columns[axis == 0 ? Slot::x : Slot::y]);
-        if (value) least[axis] = std::min(least[axis], *value), most[axis] = std::max(most[axis], *value);
-      }
-      if (const auto angle = number(table, columns[heading]))
-        most_angle = std::max(most_angle, std::abs(*angle));
-    }
-    return std::max(most[0] - least[0], most[1] - least[1]);
-  }
-};
-
 /// A compass counts clockwise, in axes in which the positions turn the other way.
 void settle_sense(const HeadingMatch& match, PlainHeader& header, TrackFacts& facts) {
   constexpr double kClearlyBetter = 0.3;
   const bool degrees = header.columns.radians != 1;
-  const DirectionMatch& direction = degrees ? match.in_degrees : match.in_radians;
+  const DirectionMatch& direction = match.in(degrees);
   if (header.columns.rotation != RotationKind::heading ||
       direction.forward_share(true) < direction.forward_share(false) + kClearlyBetter)
     return;
