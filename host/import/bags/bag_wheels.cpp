@@ -1,13 +1,13 @@
-#include "host/import/wheels/bag_wheels.hpp"
+#include "host/import/bags/bag_wheels.hpp"
 
 #include <algorithm>
 
 #include "host/formats/files/bag.hpp"
-#include "host/import/wheels/field_wheels.hpp"
-#include "host/import/wheels/joint_wheels.hpp"
-#include "host/import/wheels/odometry_wheels.hpp"
+#include "host/import/bags/field_wheels.hpp"
+#include "host/import/bags/joint_wheels.hpp"
+#include "host/import/bags/odometry_wheels.hpp"
+#include "host/import/bags/wheel_sources.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
-#include "host/import/wheels/wheel_sources.hpp"
 
 namespace astro::importing {
 namespace {

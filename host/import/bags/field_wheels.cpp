@@ -1,4 +1,4 @@
-#include "host/import/wheels/field_wheels.hpp"
+#include "host/import/bags/field_wheels.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 
 #include "common/base/side.hpp"
 #include "host/formats/cdr/field_reader.hpp"
+#include "host/import/bags/sample_limit.hpp"
+#include "host/import/bags/stamp_count.hpp"
+#include "host/import/bags/time_order.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
-#include "host/import/wheels/sample_limit.hpp"
 #include "host/import/wheels/speed_integral.hpp"
-#include "host/import/wheels/stamp_count.hpp"
-#include "host/import/wheels/time_order.hpp"
 
 namespace astro::importing {
 namespace {

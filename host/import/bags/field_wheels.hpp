@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "host/import/wheels/wheel_sources.hpp"
+#include "host/import/bags/wheel_sources.hpp"
 #include "host/import/wheels/wheel_track.hpp"
 
 namespace astro::importing {

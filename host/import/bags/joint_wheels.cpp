@@ -1,4 +1,4 @@
-#include "host/import/wheels/joint_wheels.hpp"
+#include "host/import/bags/joint_wheels.hpp"
 
 #include <fmt/format.h>
 
@@ -11,12 +11,12 @@
 
 #include "host/formats/files/bag.hpp"
 #include "host/formats/messages/joint_state.hpp"
+#include "host/import/bags/sample_limit.hpp"
+#include "host/import/bags/stamp_count.hpp"
+#include "host/import/bags/time_order.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/mean_of_pairs.hpp"
-#include "host/import/wheels/sample_limit.hpp"
 #include "host/import/wheels/speed_integral.hpp"
-#include "host/import/wheels/stamp_count.hpp"
-#include "host/import/wheels/time_order.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 
 namespace astro::importing {

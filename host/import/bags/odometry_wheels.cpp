@@ -1,4 +1,4 @@
-#include "host/import/wheels/odometry_wheels.hpp"
+#include "host/import/bags/odometry_wheels.hpp"
 
 #include <cmath>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "host/base/pose2.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "host/formats/messages/ros_messages.hpp"
-#include "host/import/wheels/pose_topics.hpp"
+#include "host/import/bags/pose_topics.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 
 namespace astro::importing {

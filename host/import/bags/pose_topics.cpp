@@ -1,4 +1,4 @@
-#include "host/import/wheels/pose_topics.hpp"
+#include "host/import/bags/pose_topics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "host/formats/files/bag.hpp"
 #include "host/formats/messages/stamped_pose.hpp"
-#include "host/import/wheels/sample_limit.hpp"
-#include "host/import/wheels/time_order.hpp"
+#include "host/import/bags/sample_limit.hpp"
+#include "host/import/bags/time_order.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 
 namespace astro::importing {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
-#include "host/import/wheels/stamp_count.hpp"
+#include "host/import/bags/stamp_count.hpp"
 
 /// Reads poses in bags, whatever published them: ground truth of a tracker, or a robot's own odometry.
 namespace astro::importing {

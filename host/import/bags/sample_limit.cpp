@@ -1,4 +1,4 @@
-#include "host/import/wheels/sample_limit.hpp"
+#include "host/import/bags/sample_limit.hpp"
 
 #include <string>
 

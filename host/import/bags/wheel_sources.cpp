@@ -1,4 +1,4 @@
-#include "host/import/wheels/wheel_sources.hpp"
+#include "host/import/bags/wheel_sources.hpp"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "host/import/wheels/pose_topics.hpp"
+#include "host/import/bags/pose_topics.hpp"
 #include "host/truth/files/body_track.hpp"
 
 namespace astro::importing {

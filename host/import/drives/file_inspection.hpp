@@ -7,12 +7,12 @@
 
 #include "host/calibration/end_poses/end_pose_csv.hpp"
 #include "host/formats/files/bag.hpp"
+#include "host/import/bags/pose_topics.hpp"
+#include "host/import/bags/wheel_sources.hpp"
 #include "host/import/drives/robot_geometry.hpp"
 #include "host/import/drives/truth_file.hpp"
 #include "host/import/wheels/joint_names.hpp"
-#include "host/import/wheels/pose_topics.hpp"
 #include "host/import/wheels/wheel_csv.hpp"
-#include "host/import/wheels/wheel_sources.hpp"
 #include "host/recording/run.hpp"
 #include "host/truth/floor/inspection.hpp"
 

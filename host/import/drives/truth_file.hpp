@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/import/wheels/pose_topics.hpp"
+#include "host/import/bags/pose_topics.hpp"
 #include "host/truth/files/body_track.hpp"
 #include "host/truth/floor/lost_tracking.hpp"
 

@@ -98,6 +98,19 @@ double moving_s(const std::vector<Sample>& samples, const auto& is_used) {
   return std::max(0.0, 1e-6 * static_cast<double>(last->time_us - first->time_us));
 }
 
+/// The way forward minus that backward by the wheels, over both: -1 for a robot that only drove backward.
+double forward_share(const recording::Run& run) {
+  double sum = 0, all = 0;
+  for (std::size_t i = 1; i < run.odometry.size(); ++i) {
+    const recording::OdometrySample &before = run.odometry[i - 1], &now = run.odometry[i];
+    const double left = double(now.left_counts) - double(before.left_counts),
+                 right = double(now.right_counts) - double(before.right_counts);
+    sum += left + right;
+    all += std::abs(left + right);
+  }
+  return all > 0 ? sum / all : 0;
+}
+
 }  // namespace
 
 void require_times_alike(const recording::Run& run, const AssumedTimeUnit& wheels,
@@ -147,16 +160,9 @@ void require_turning_wheels(const std::string& name, const recording::Run& run,
         ImportProblem::per_interval_likely, {name});
 }
 
-double forward_share(const recording::Run& run) {
-  double sum = 0, all = 0;
-  for (std::size_t i = 1; i < run.odometry.size(); ++i) {
-    const recording::OdometrySample &before = run.odometry[i - 1], &now = run.odometry[i];
-    const double left = double(now.left_counts) - double(before.left_counts),
-                 right = double(now.right_counts) - double(before.right_counts);
-    sum += left + right;
-    all += std::abs(left + right);
-  }
-  return all > 0 ? sum / all : 0;
+bool drove_backward(const recording::Run& run) {
+  constexpr double kForTheMostPart = -0.3;  // spins and flickering counts go either way
+  return forward_share(run) < kForTheMostPart;
 }
 
 }  // namespace astro::importing

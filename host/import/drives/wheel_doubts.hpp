@@ -25,7 +25,7 @@ void require_turning_wheels(const std::string& name, const recording::Run& run,
 void require_times_alike(const recording::Run& run, const AssumedTimeUnit& wheels,
                          const AssumedTimeUnit& truth);
 
-/// The way forward minus that backward by the wheels, over both: -1 for a robot that only drove backward.
-double forward_share(const recording::Run& run);
+/// Whether by its wheels a robot drove backward, which hardly any does for long.
+bool drove_backward(const recording::Run& run);
 
 }  // namespace astro::importing

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "host/import/wheels/bag_wheels.hpp"
+#include "host/import/bags/bag_wheels.hpp"
 #include "host/import/wheels/wheel_csv.hpp"
 #include "host/import/wheels/wheel_track.hpp"
 #include "host/recording/run.hpp"

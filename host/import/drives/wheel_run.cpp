@@ -186,12 +186,6 @@ void turn_forward(const std::string& name, const RobotGeometry& given, WheelTrac
        {name, side}});
 }
 
-/// Samples in a second, from the first to the last.
-double rate_hz(const std::vector<WheelSample>& samples) {
-  const double span_s = 1e-9 * static_cast<double>(samples.back().time_ns - samples.front().time_ns);
-  return span_s > 0 ? static_cast<double>(samples.size() - 1) / span_s : 0;
-}
-
 std::string summary_of(const std::vector<WheelSample>& counts) {
   return fmt::format("{} samples of the wheels at {:.4g} Hz over {:.1f} s", counts.size(), rate_hz(counts),
                      1e-9 * static_cast<double>(counts.back().time_ns - counts.front().time_ns));

@@ -10,6 +10,13 @@
 
 namespace astro::importing {
 
+/// Samples in a second, from the first to the last.
+template <class Sample>
+double rate_hz(const std::vector<Sample>& samples) {
+  const double span_s = 1e-9 * static_cast<double>(samples.back().time_ns - samples.front().time_ns);
+  return span_s > 0 ? static_cast<double>(samples.size() - 1) / span_s : 0;
+}
+
 /// A drive of which only the wheels are known so far.
 struct WheelRun {
   recording::Run run;           // dead reckoning with the factors of the geometry as odometry; no truth

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace astro::importing {
+
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words;
   char before = ' ';
@@ -26,27 +27,37 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-namespace {
-
-std::optional<Side> side_of(const std::string& word) {
-  static const std::map<std::string, Side> sides = {
-      {"left", Side::left},   {"l", Side::left},  {"lhs", Side::left},  {"port", Side::left},
-      {"right", Side::right}, {"r", Side::right}, {"rhs", Side::right}, {"starboard", Side::right}};
-  const auto found = sides.find(word);
-  return found == sides.end() ? std::nullopt : std::optional(found->second);
-}
-
-/// "leftwheel" and "lwheel" are one word each. Nothing if the word does not begin with a side.
-std::optional<std::pair<Side, std::string>> side_and_rest(const std::string& word) {
-  for (const auto& [prefix, side] : {std::pair{"left", Side::left}, std::pair{"right", Side::right}})
-    if (word.starts_with(prefix)) return std::pair{side, word.substr(std::string_view(prefix).size())};
-  for (const char* part : {"wheel", "whl", "enc", "motor", "tick"})
-    for (const auto& [letter, side] : {std::pair{'l', Side::left}, std::pair{'r', Side::right}})
-      if (word.starts_with(letter + std::string(part))) return std::pair{side, word.substr(1)};
+std::optional<SidedWord> sided_word(const std::string& word) {
+  for (const auto& [text, side] : {std::pair{"lhs", Side::left}, std::pair{"port", Side::left},
+                                   std::pair{"rhs", Side::right}, std::pair{"starboard", Side::right}})
+    if (word == text) return SidedWord{side, ""};
+  const std::size_t left = word.find("left"), right = word.find("right");
+  if ((left == word.npos) != (right == word.npos))
+    return left != word.npos ? SidedWord{Side::left, word.substr(0, left) + word.substr(left + 4)}
+                             : SidedWord{Side::right, word.substr(0, right) + word.substr(right + 5)};
+  for (const std::string_view front :
+       {"",      "w",     "v",     "m",      "e",   "d",     "q",     "enc", "encoder",
+        "tick",  "ticks", "count", "counts", "pos", "wheel", "motor", "phi", "th",
+        "theta", "omega", "f",     "r",      "b",   "front", "rear",  "back"}) {
+    if (word == std::string(front) + "l") return SidedWord{Side::left, std::string(front)};
+    if (word == std::string(front) + "r") return SidedWord{Side::right, std::string(front)};
+  }
+  for (const std::string_view end : {"wheel", "wheels", "whl", "enc", "encoder", "tick", "ticks", "motor",
+                                     "w", "f", "r", "b", "front", "rear"}) {
+    if (word == "l" + std::string(end)) return SidedWord{Side::left, std::string(end)};
+    if (word == "r" + std::string(end)) return SidedWord{Side::right, std::string(end)};
+  }
   return std::nullopt;
 }
 
-}  // namespace
+bool is_of_no_use(std::span<const std::string> words) {
+  static const std::set<std::string, std::less<>> kUseless = {
+      "cmd",         "command",   "commanded", "target", "setpoint", "set",     "desired", "goal",    "ref",
+      "reference",   "requested", "pwm",       "duty",   "gain",     "current", "amps",    "voltage", "volt",
+      "volts",       "torque",    "force",     "effort", "error",    "err",     "acc",     "accel",   "temp",
+      "temperature", "power",     "max",       "min",    "limit",    "offset",  "status",  "fault"};
+  return std::ranges::any_of(words, [](const std::string& word) { return kUseless.contains(word); });
+}
 
 bool speaks_of_wheels(std::string_view words) {
   for (const char* word : {"wheel", "tyre", "tire", "drive", "motor"})
@@ -57,13 +68,12 @@ bool speaks_of_wheels(std::string_view words) {
 SidedName sided_name(std::string_view name) {
   SidedName out;
   for (const std::string& word : words_of(name)) {
-    std::optional<Side> side = side_of(word);
-    std::string rest;
-    if (!side)
-      if (auto parts = side_and_rest(word)) std::tie(side, rest) = std::move(*parts);
-    if (side && out.side) return {};
-    if (side) out.side = side;
-    out.stem += (side ? "<>" + rest : word) + " ";
+    auto sided = sided_word(word);
+    // Which axle of "fl" and "rl" is driven, the names of joints do not show.
+    if (sided && (sided->rest == "f" || sided->rest == "r" || sided->rest == "b")) sided.reset();
+    if (sided && out.side) return {};
+    if (sided) out.side = sided->side;
+    out.stem += (sided ? "<>" + sided->rest : word) + " ";
   }
   return out;
 }

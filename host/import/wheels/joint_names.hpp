@@ -20,13 +20,25 @@ struct JointPair {
 std::vector<std::string> words_of(std::string_view name);
 
 /// A name, and its words with a placeholder for that of its side: "<> wheel " for "left_wheel", "<>wheel "
-/// for "lwheel". `side` is empty if there is no such word, or more than one.
+/// for "lwheel". `side` is empty if there is no such word, or more than one, or
+/// one that names an axle with a letter.
 struct SidedName {
   std::optional<Side> side;
   std::string stem;
 };
 
 SidedName sided_name(std::string_view name);
+
+/// The side that a word names, and what else it says: left and "" for "left" and "l", "wheel" for "leftwheel" and "lwheel", "f"
+/// for "fl". In "rr" and "rl" of rear wheels the last letter counts. Nothing if it names none.
+struct SidedWord {
+  Side side;
+  std::string rest;
+};
+std::optional<SidedWord> sided_word(const std::string& word);
+
+/// Whether the words say that this is no travel or speed that was measured: commands, limits, currents, temperatures.
+bool is_of_no_use(std::span<const std::string> words);
 
 /// Whether one of the words is about wheels or what drives them.
 bool speaks_of_wheels(std::string_view words);

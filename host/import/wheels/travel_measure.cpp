@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <numbers>
 #include <vector>
 
 #include "host/import/wheels/joint_names.hpp"
@@ -10,17 +9,7 @@
 namespace astro::importing {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180, kRpm_radps = 2 * std::numbers::pi / 60;
-
-constexpr TravelMeasure kMeasures[] = {{"counts", WheelUnit::counts, 1, false},
-                                       {"rad", WheelUnit::radians, 1, false},
-                                       {"deg", WheelUnit::radians, kDegree_rad, false},
-                                       {"m", WheelUnit::metres, 1, false},
-                                       {"cm", WheelUnit::metres, 0.01, false},
-                                       {"mm", WheelUnit::metres, 0.001, false},
-                                       {"rad/s", WheelUnit::radians, 1, true},
-                                       {"rpm", WheelUnit::radians, kRpm_radps, true},
-                                       {"m/s", WheelUnit::metres, 1, true}};
+constexpr std::string_view kNames[] = {"counts", "rad", "deg", "m", "cm", "mm", "rad/s", "rpm", "m/s"};
 
 bool any_word_of_wheels(std::string_view text) {
   return std::ranges::any_of(words_of(text), [](const std::string& word) { return speaks_of_wheels(word); });
@@ -30,11 +19,12 @@ class Words {
  public:
   explicit Words(std::string_view text) : words_(words_of(text)) {}
 
+  const std::vector<std::string>& all() const { return words_; }
   bool any(std::initializer_list<std::string_view> of) const {
     return std::ranges::any_of(words_,
                                [&](const std::string& word) { return std::ranges::count(of, word) > 0; });
   }
-  bool all(std::initializer_list<std::string_view> of) const {
+  bool only(std::initializer_list<std::string_view> of) const {
     return std::ranges::all_of(words_, [&](const std::string& word) {
       return std::ranges::count(of, word) > 0 || word.find_first_not_of("0123456789") == std::string::npos;
     });
@@ -44,37 +34,71 @@ class Words {
   std::vector<std::string> words_;
 };
 
+/// The first word that is one of the units above, of travel or of a speed.
+std::optional<TravelMeasure> unit_in(const Words& words, bool per_second) {
+  for (const std::string& word : words.all())
+    if (const auto unit = tables::unit_named(word); unit && is_travel(unit->quantity) != per_second)
+      for (const TravelMeasure& measure : travel_measures())
+        if (measure.per_second == per_second && measure.unit == wheel_unit(unit->quantity) &&
+            measure.scale == unit->to_si)
+          return measure;
+  return std::nullopt;
+}
+
 std::optional<TravelMeasure> speed_named(const Words& words) {
-  if (words.any({"rpm"})) return travel_measure("rpm");
-  if (words.any({"rad", "rads", "radps", "radians", "omega", "angular"})) return travel_measure("rad/s");
-  if (words.any({"m", "mps", "metres", "meters", "linear"})) return travel_measure("m/s");
+  if (const auto stated = unit_in(words, true)) return stated;
+  if (words.any({"rad", "rads", "radians", "omega", "angular"})) return travel_measure("rad/s");
+  if (words.any({"m", "metres", "meters", "linear"})) return travel_measure("m/s");
   return std::nullopt;
 }
 
 std::optional<TravelMeasure> length_named(const Words& words) {
-  if (words.any({"mm", "millimetres", "millimeters"})) return travel_measure("mm");
-  if (words.any({"cm", "centimetres", "centimeters"})) return travel_measure("cm");
-  if (words.any({"m", "metres", "meters", "distance", "dist", "travel", "travelled", "traveled"}))
-    return travel_measure("m");
+  if (const auto stated = unit_in(words, false); stated && stated->unit == WheelUnit::metres) return stated;
+  if (words.any({"distance", "dist", "travel", "travelled", "traveled"})) return travel_measure("m");
   return std::nullopt;
 }
 
 }  // namespace
 
-std::span<const TravelMeasure> travel_measures() { return kMeasures; }
+WheelUnit wheel_unit(tables::Quantity quantity) {
+  switch (quantity) {
+    case tables::Quantity::angle:
+    case tables::Quantity::angular_speed:
+      return WheelUnit::radians;
+    case tables::Quantity::length:
+    case tables::Quantity::speed:
+      return WheelUnit::metres;
+    default:
+      return WheelUnit::counts;
+  }
+}
+
+bool is_travel(tables::Quantity quantity) {
+  return quantity == tables::Quantity::counts || quantity == tables::Quantity::angle ||
+         quantity == tables::Quantity::length;
+}
+
+std::span<const TravelMeasure> travel_measures() {
+  static const std::vector<TravelMeasure> measures = [] {
+    std::vector<TravelMeasure> all;
+    for (const std::string_view name : kNames) {
+      const tables::Unit unit = tables::unit_named(name).value();
+      all.push_back({name, wheel_unit(unit.quantity), unit.to_si, !is_travel(unit.quantity)});
+    }
+    return all;
+  }();
+  return measures;
+}
 
 std::optional<TravelMeasure> travel_measure(std::string_view name) {
-  const auto found = std::ranges::find(kMeasures, name, &TravelMeasure::name);
-  return found == std::end(kMeasures) ? std::nullopt : std::optional(*found);
+  const auto all = travel_measures();
+  const auto found = std::ranges::find(all, name, &TravelMeasure::name);
+  return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
 NamedMeasure measure_named(std::string_view name, std::string_view context, bool is_integer) {
   const Words words(name);
-  if (words.any({"cmd",       "command",  "commanded", "target", "desired",    "goal",    "ref",
-                 "reference", "setpoint", "set",       "error",  "err",        "max",     "min",
-                 "limit",     "offset",   "pwm",       "duty",   "gain",       "current", "effort",
-                 "torque",    "force",    "status",    "fault",  "temperature"}))
-    return {};
+  if (is_of_no_use(words.all())) return {};
   const bool counts = words.any({"tick", "ticks", "count", "counts", "counter", "encoder", "encoders", "enc",
                                  "pulse", "pulses", "whlenc"});
   const bool about_wheels = counts || any_word_of_wheels(name) || any_word_of_wheels(context);
@@ -86,8 +110,8 @@ NamedMeasure measure_named(std::string_view name, std::string_view context, bool
   if (words.any({"position", "pos", "angle", "theta", "rad", "radians"}))
     return {about_wheels, travel_measure(is_integer ? "counts" : "rad")};
   if (const auto length = length_named(words)) return {about_wheels, length};
-  const bool bare = words.all({"wheel", "wheels", "motor", "whl", "drive", "data", "value", "feedback", "raw",
-                               "state", "front", "rear", "base", "robot", "joint"});
+  const bool bare = words.only({"wheel", "wheels", "motor", "whl", "drive", "data", "value", "feedback",
+                                "raw", "state", "front", "rear", "base", "robot", "joint"});
   if (!about_wheels || !bare) return {};
   return {true, is_integer ? travel_measure("counts") : std::nullopt};
 }

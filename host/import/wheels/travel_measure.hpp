@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "host/formats/tables/units.hpp"
 #include "host/import/wheels/wheel_track.hpp"
 
 namespace astro::importing {
@@ -16,6 +17,10 @@ struct TravelMeasure {
   double scale = 1;  // of the unit
   bool per_second = false;
 };
+
+/// The unit that travel of a quantity, or the integral of a speed, has in a track.
+WheelUnit wheel_unit(tables::Quantity quantity);
+bool is_travel(tables::Quantity quantity);
 
 /// All measures that can be stated: counts, rad, deg, m, cm, mm, rad/s, rpm, m/s.
 std::span<const TravelMeasure> travel_measures();

@@ -9,6 +9,8 @@
 
 #include "common/base/side.hpp"
 #include "host/formats/tables/column_name.hpp"
+#include "host/import/wheels/joint_names.hpp"
+#include "host/import/wheels/travel_measure.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 
 namespace astro::importing {
@@ -17,41 +19,15 @@ namespace {
 using tables::ColumnName;
 using tables::Quantity;
 
-/// The side that a word names: "left", "leftwheel", "l", "wl", "encl", "fl", "lf".
-std::optional<Side> side_of(const std::string& word) {
-  const bool left = word.find("left") != std::string::npos, right = word.find("right") != std::string::npos;
-  if (left != right) return left ? Side::left : Side::right;
-  for (const std::string_view front :
-       {"",      "w",     "v",     "m",      "e",   "d",     "q",     "enc", "encoder",
-        "tick",  "ticks", "count", "counts", "pos", "wheel", "motor", "phi", "th",
-        "theta", "omega", "f",     "r",      "b",   "front", "rear",  "back"}) {
-    if (word == std::string(front) + "l") return Side::left;
-    if (word == std::string(front) + "r") return Side::right;
-  }
-  for (const std::string_view end :
-       {"wheel", "enc", "encoder", "ticks", "motor", "w", "f", "r", "b", "front", "rear"}) {
-    if (word == "l" + std::string(end)) return Side::left;
-    if (word == "r" + std::string(end)) return Side::right;
-  }
-  return std::nullopt;
-}
-
-/// The side that a name shows; nothing if it shows none, or both. "rr" and "rl" are rear wheels, so the last letter counts.
+/// The side that a name shows; nothing if it shows none, or both.
 std::optional<Side> side_of(const ColumnName& name) {
   std::optional<Side> side;
   for (const std::string& word : name.words) {
-    const auto one = side_of(word);
-    if (one && side && one != side) return std::nullopt;
-    if (one) side = one;
+    const auto one = sided_word(word);
+    if (one && side && one->side != side) return std::nullopt;
+    if (one) side = one->side;
   }
   return side;
-}
-
-bool is_of_no_use(const ColumnName& name) {
-  return name.has({"cmd",   "command",   "commanded",   "target", "setpoint", "desired", "goal",
-                   "ref",   "reference", "pwm",         "duty",   "current",  "amps",    "voltage",
-                   "volt",  "volts",     "torque",      "effort", "error",    "err",     "acc",
-                   "accel", "temp",      "temperature", "power",  "requested"});
 }
 
 /// What a column holds, by its name.
@@ -88,7 +64,7 @@ void take_unit_in_front(ColumnName& name) {
 std::optional<Wheel> wheel_named(ColumnName name, std::size_t column) {
   take_unit_in_front(name);
   const auto side = side_of(name);
-  if (!side || is_of_no_use(name)) return std::nullopt;
+  if (!side || is_of_no_use(name.words)) return std::nullopt;
   Wheel wheel;
   wheel.column = column;
   wheel.side = *side;
@@ -110,10 +86,6 @@ std::optional<Wheel> wheel_named(ColumnName name, std::size_t column) {
   if (name.has({"vel", "velocity", "speed", "omega", "w", "v"}) && !counts)
     wheel.quantity = Quantity::angular_speed;
   return wheel;
-}
-
-bool is_travel(Quantity quantity) {
-  return quantity == Quantity::counts || quantity == Quantity::angle || quantity == Quantity::length;
 }
 
 /// Columns of one kind, with as many on the left as on the right.
@@ -195,19 +167,6 @@ bool end_as_they_begin(tables::Table& table, const std::vector<std::size_t>& col
   return same;
 }
 
-WheelUnit unit_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::angle:
-    case Quantity::angular_speed:
-      return WheelUnit::radians;
-    case Quantity::length:
-    case Quantity::speed:
-      return WheelUnit::metres;
-    default:
-      return WheelUnit::counts;
-  }
-}
-
 [[noreturn]] void refuse(const tables::Table& table, const std::vector<std::string>& names,
                          const std::string& why) {
   // Of columns of which only some were stated the others have no names here.
@@ -269,7 +228,7 @@ WheelColumns wheel_columns(const std::vector<std::string>& names, tables::Table&
                      tables::shown_cell(names[out.left.front()])),
          WheelRemark::per_interval_assumed,
          {names[out.left.front()]}});
-  out.unit = unit_of(kind.quantity);
+  out.unit = wheel_unit(kind.quantity);
   out.scale = kind.to_si;
   out.unit_text = kind.unit_text;
   if (!kind.sure) {

@@ -21,7 +21,8 @@ struct PlainHeader {
   std::string length_unit, angle_unit;
 };
 
-/// The bodies that have a time and a position, each by what its columns' names begin with. Throws astro::Error with file, line and
+/// The bodies that have a time and a position, each by what its columns' names begin with; a table of two rows, the ends of a
+/// drive, needs no time. Throws astro::Error with file, line and
 /// column for a unit that does not fit its column, or two units for one quantity.
 std::vector<PlainHeader> plain_headers(const tables::Table& table, const std::vector<std::string>& names);
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "host/formats/files/bag.hpp"
-#include "host/import/wheels/bag_wheels.hpp"
+#include "host/import/bags/bag_wheels.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/recording/tum_export.hpp"
 #include "tests/host/formats/files/made_bags.hpp"

@@ -1,4 +1,4 @@
-#include "host/import/wheels/bag_wheels.hpp"
+#include "host/import/bags/bag_wheels.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 
 #include <gmock/gmock.h>
@@ -10,8 +10,8 @@
 #include "host/formats/messages/joint_state.hpp"
 #include "host/formats/messages/ros_messages.hpp"
 #include "host/formats/messages/sensors.hpp"
+#include "host/import/bags/wheel_sources.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
-#include "host/import/wheels/wheel_sources.hpp"
 #include "tests/host/formats/files/made_bags.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"

@@ -1,10 +1,10 @@
-#include "host/import/wheels/bag_wheels.hpp"
+#include "host/import/bags/bag_wheels.hpp"
 
 #include <gmock/gmock.h>
 
 #include "host/formats/messages/joint_state.hpp"
+#include "host/import/bags/stamp_count.hpp"
 #include "host/import/wheels/diff_drive_yaml.hpp"
-#include "host/import/wheels/stamp_count.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "tests/host/formats/files/made_bags.hpp"
 #include "tests/support/base/remarks.hpp"

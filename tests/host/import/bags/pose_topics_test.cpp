@@ -1,4 +1,4 @@
-#include "host/import/wheels/pose_topics.hpp"
+#include "host/import/bags/pose_topics.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "host/import/wheels/time_order.hpp"
+#include "host/import/bags/time_order.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
