@@ -11,40 +11,10 @@
 #include <vector>
 
 #include "host/base/bytes.hpp"
-#include "host/formats/cdr/message.hpp"
+#include "tests/support/ros2/message_encoder.hpp"
 
 /// Bags and messages as ROS 1 writes them, by code that has nothing in common with their readers.
 namespace astro::support {
-
-/// A message of ours in the bytes of ROS 1: packed, and with a sequence number before each header.
-class Ros1Message {
- public:
-  template <ros2::Message M>
-  static Bytes encode(const M& message) {
-    Ros1Message out;
-    out.put(message);
-    return out.bytes_;
-  }
-
- private:
-  template <class T>
-  void put(const T& value) {
-    if constexpr (ros2::Message<T>) {
-      if (T::kType == "std_msgs/msg/Header") put(std::uint32_t{0xABCDEF01});
-      ros2::for_each_field(value, [&](std::string_view, const auto& field) { put(field); });
-    } else if constexpr (Number<T>) {
-      append(bytes_, value);
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      put(static_cast<std::uint32_t>(value.size()));
-      append(bytes_, as_bytes(value));
-    } else {
-      if constexpr (ros2::IsSequence<T>::value) put(static_cast<std::uint32_t>(value.size()));
-      for (const auto& each : value) put(each);
-    }
-  }
-
-  Bytes bytes_;
-};
 
 /// A bag of format 2.0.
 class Ros1Bag {

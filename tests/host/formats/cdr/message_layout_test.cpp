@@ -10,7 +10,7 @@
 #include "host/formats/messages/sensors.hpp"
 #include "tests/support/base/mutations.hpp"
 #include "tests/support/ros1/ros1_bag.hpp"
-#include "tests/support/ros2/big_endian.hpp"
+#include "tests/support/ros2/message_encoder.hpp"
 
 namespace astro::ros2 {
 namespace {

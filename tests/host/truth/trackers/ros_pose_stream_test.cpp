@@ -10,7 +10,7 @@
 #include "tests/support/base/bounded.hpp"
 #include "tests/support/base/mutations.hpp"
 #include "tests/support/base/remarks.hpp"
-#include "tests/support/ros2/big_endian.hpp"
+#include "tests/support/ros2/message_encoder.hpp"
 
 namespace astro::truth {
 namespace {
