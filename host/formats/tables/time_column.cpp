@@ -36,7 +36,8 @@ std::optional<TimeName> time_name(std::string_view text) {
   const auto says_time = [](const std::string& word) {
     return word == "time" || word == "timestamp" || word == "stamp" || word == "t" || word == "times" ||
            word == "elapsed" || word == "datetime" || word == "timestamps" || word == "tv" ||
-           word == "epoch" || word == "clock" || word == "unix";
+           word == "epoch" || word == "clock" || word == "unix" || word == "zeit" || word == "zeitstempel" ||
+           word == "uhrzeit" || word == "temps" || word == "tiempo" || word == "tempo";
   };
   if (!says_time(name.words.front()) && !says_time(name.words.back())) return std::nullopt;
   return TimeName{joined(name.words), name.unit ? ns_power(name.unit_text) : std::nullopt};

@@ -12,7 +12,7 @@
 namespace astro::truth {
 namespace {
 
-constexpr std::int64_t kWindow_ns = 500'000'000;
+constexpr std::int64_t kWindow_ns = 500'000'000;  // more of a slow tracker
 constexpr std::size_t kFewestSamples = 8;
 
 /// x, y, z, and the rotation relative to the window's first sample as a vector.
@@ -60,15 +60,15 @@ Window summary_of(const std::vector<TrackedPose>& samples, std::size_t begin, st
   return out;
 }
 
-std::vector<Window> windows_of(const std::vector<TrackedPose>& samples) {
+std::vector<Window> windows_of(const std::vector<TrackedPose>& samples, std::int64_t window_ns) {
   std::vector<Window> out;
   for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = std::max(end, begin + 1)) {
     end = begin;
     while (end < samples.size() && samples[end].valid &&
-           samples[end].time_ns - samples[begin].time_ns < kWindow_ns)
+           samples[end].time_ns - samples[begin].time_ns < window_ns)
       ++end;
     const bool whole =
-        end < samples.size() && samples[end].time_ns - samples[begin].time_ns < kWindow_ns * 3 / 2;
+        end < samples.size() && samples[end].time_ns - samples[begin].time_ns < window_ns * 3 / 2;
     if (whole && samples[end].valid && end - begin >= kFewestSamples)
       out.push_back(summary_of(samples, begin, end));
   }
@@ -102,20 +102,20 @@ std::vector<Window> still_ones(std::vector<Window> windows) {
 /// count. Nothing if all rests together are shorter than a second.
 ///
 /// A stretch in which the tracker repeats the same numbers (invalid samples) is no rest.
-std::optional<RestNoise> find_rest_noise(const BodyTrack& track) {
+std::optional<RestNoise> find_rest_noise(const BodyTrack& track, double period_s) {
+  const auto window_ns = std::max(kWindow_ns, static_cast<std::int64_t>(1e9 * kFewestSamples * period_s));
+  const std::vector<Window> still = still_ones(windows_of(track.samples, window_ns));
   RestNoise out;
-  Coordinates sums{};
-  double degrees_of_freedom = 0;
-  for (const Window& window : still_ones(windows_of(track.samples))) {
-    out.rest_s += 1e-9 * kWindow_ns;
-    const double weight = static_cast<double>(window.count - 2);
-    for (std::size_t k = 0; k < 6; ++k) sums[k] += weight * window.variance[k];
-    degrees_of_freedom += weight;
-  }
+  out.rest_s = 1e-9 * static_cast<double>(window_ns) * static_cast<double>(still.size());
   if (out.rest_s < 1) return std::nullopt;
-  for (std::size_t k = 0; k < 3; ++k) out.sd_m[k] = std::sqrt(sums[k] / degrees_of_freedom);
-  if (track.facts.rotation_kind != RotationKind::none)
-    out.sd_rad = std::sqrt(*std::max_element(sums.begin() + 3, sums.end()) / degrees_of_freedom);
+  // The median, because the last of a few windows may hold the first millimetre of a motion.
+  const auto sd = [&](std::size_t k) {
+    std::vector<double> variances;
+    for (const Window& window : still) variances.push_back(window.variance[k]);
+    return std::sqrt(lower_median_of(std::move(variances)));
+  };
+  for (std::size_t k = 0; k < 3; ++k) out.sd_m[k] = sd(k);
+  if (track.facts.rotation_kind != RotationKind::none) out.sd_rad = std::max({sd(3), sd(4), sd(5)});
   return out;
 }
 
@@ -153,7 +153,7 @@ BodyInspection inspect(BodyTrack& track) {
   out.median_period_s = median_period(track.samples);
   count_gaps(track.samples, out);
   out.up = find_up_axis(track);
-  out.noise = find_rest_noise(track);
+  out.noise = find_rest_noise(track, out.median_period_s);
   return out;
 }
 

@@ -281,6 +281,12 @@ TEST(WheelCsv, AUnitMayStandInFrontOfTheSide) {
   EXPECT_EQ(wheels("t_s,m_left,m_right\n0,1,1\n1,2,2\n").unit, WheelUnit::counts) << "m is a motor there";
 }
 
+TEST(WheelCsv, ARemarkAboutSeveralWheelsIsMadeOnce) {
+  const auto remarks =
+      wheels("Zeit(s) FL(rad/s) FR(rad/s) RL(rad/s) RR(rad/s)\n0 1 1 1 1\n1 1 1 1 1\n2 1 1 1 1\n").remarks;
+  EXPECT_EQ(std::ranges::count(remarks, Kind(WheelRemark::speeds_integrated), &Remark::kind), 1);
+}
+
 TEST(WheelCsv, DatesMayStandBelowANameWithAUnit) {
   EXPECT_THAT(
       wheels("time_s,left_counts,right_counts\n2024-05-01T10:00:00Z,1,2\n2024-05-01T10:00:00.5Z,3,5\n")
