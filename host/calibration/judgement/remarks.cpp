@@ -123,7 +123,8 @@ std::vector<Remark> remarks(const MlEstimate& estimate, bool noise_given) {
     list.push_back(
         {fmt::format("the runs differ {:.1f} times as much as the noise within them explains; the standard "
                      "errors are widened by that",
-                     std::sqrt(estimate.dispersion))});
+                     std::sqrt(estimate.dispersion)),
+         JudgementProblem::runs_differ});
   return list;
 }
 

@@ -19,6 +19,7 @@ enum class JudgementProblem {
   uncertain_elsewhere,
   run_stands_out,
   run_slipped,
+  runs_differ,
   given_noise_is_wrong,
   estimated_noise_is_wrong,
   clocks_run_apart,

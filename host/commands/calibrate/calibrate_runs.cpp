@@ -84,10 +84,14 @@ constexpr Advice kCalibrateRunsAdvice[] = {
     {experiment::RunSetProblem::same_recording, ": leave one out with --without {0}"},
     {calibration::JudgementProblem::run_stands_out,
      "; look there, and if it was an accident leave the run out (of a folder: 'astrolabe calibrate runs "
-     "--without ...')"},
+     "--without ...'); if the tracked body was mounted anew before or after it, --session-per-folder says "
+     "so"},
     {calibration::JudgementProblem::run_slipped,
      "; look there, and if it was an accident leave the run out (of a folder: 'astrolabe calibrate runs "
      "--without ...')"},
+    {calibration::JudgementProblem::runs_differ,
+     "; if the tracked body was mounted anew between them, keep the drives of each mounting in a folder of "
+     "their own, and --session-per-folder says so"},
     {calibration::JudgementProblem::given_noise_is_wrong,
      ": let the noise be estimated (without --K, --sigma-xy and --sigma-theta)"},
     {calibration::PreparationProblem::too_little_truth,

@@ -128,6 +128,7 @@ TEST_F(Files, OfTwoFoldersPoolAlthoughTheBodyWasMountedAnewIfAFolderIsASession) 
   const nlohmann::json found = support::parse_json(run_with({"calibrate", "files"}, {"--json"}).out);
   ASSERT_EQ(found["sessions"].size(), 1);
   EXPECT_TRUE(found["sessions"][0]["name"].is_null());
+  EXPECT_THAT(run_with({"calibrate", "files"}, {}).out, HasSubstr("--session-per-folder"));
 
   const Outcome text = run_with({"calibrate", "files"}, {"--session-per-folder", "--out", at("calib.toml")});
   EXPECT_THAT(text.out, testing::ContainsRegex("of\\s2\\ssessions"));
