@@ -236,13 +236,13 @@ TEST_F(FileSentences, SayOnceWhatHoldsForAllDrives) {
 TEST_F(FileSentences, TellWhatLooksOdd) {
   write("unitless.csv", "time,x,y,yaw\n" + hundredfold());
   test::write_tum("down.tum", run_, test::z_down);
-  EXPECT_EQ(
-      notices_of(files("w.csv", "unitless.csv")),
-      "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost\n"
-      "w: the unit of the heading is not stated: radians are assumed\n"
-      "w: the unit of the time is not stated: s is assumed\n"
-      "w: the path is 104.2 times as long as that of the wheels, so one of the two has another unit of "
-      "length than it seems; the file states none, and its positions were converted: check the units\n");
+  EXPECT_EQ(notices_of(files("w.csv", "unitless.csv")),
+            "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost\n"
+            "w: the unit of the heading is not stated: radians are assumed\n"
+            "w: the unit of the time is not stated: s is assumed\n"
+            "w: the path is 104.2 times as long as that of the wheels, so one of the two has another unit of "
+            "length than it seems; the file states none, and its positions were converted: check the units, "
+            "or say that of the ground truth with --truth-unit\n");
   EXPECT_EQ(notices_of(files("w.csv", "unitless.csv", " --truth-unit cm")),
             "w: 2603 samples of the wheels at 100 Hz over 26.0 s; 1562 poses (CSV) at 60 Hz, 0 lost\n"
             "w: the unit of the heading is not stated: radians are assumed\n"
