@@ -156,7 +156,7 @@ Grouping split_further(const Groupings& all, const Grouping& before, int session
 
 bool split_sessions(const MlFit& fit, PreparedRuns& runs) {
   const bool named = std::ranges::any_of(runs.runs, [](const PreparedRun& run) {
-    return !run.source->session.empty() || run.source->has_ends_only();
+    return !run.source->session.empty() || run.source->ends_only;
   });
   if (named || fit.fixed().factors || fit.fixed().session || runs.runs.size() < 2) return false;
   const Groupings all(fit);

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "host/base/order_statistics.hpp"
-#include "host/import/wheels/stamp_count.hpp"
+#include "host/import/bags/stamp_count.hpp"
 
 namespace astro::importing {
 namespace {
