@@ -139,7 +139,8 @@ double cautious(double scatter) {
 
 RobustFit fit_ends(std::span<const EndPose> cw_ends, std::span<const EndPose> ccw_ends,
                    const SquareSetup& setup, const std::optional<RatioPrior>& prior) {
-  constexpr int kMostIterations = 200, kScatterIterations = 30;
+  // Where two ends of a direction are far apart, the weights change slowly, and a step is only a twentieth shorter than the last.
+  constexpr int kMostIterations = 2000, kScatterIterations = 30;
   constexpr double kSettled = 1e-12, kLongestStep = 0.3;
   const Direction cw(Sense::cw, cw_ends, setup), ccw(Sense::ccw, ccw_ends, setup);
   const Matrix2d known = information_of(prior);

@@ -53,6 +53,16 @@ TEST(RobustFit, GivesNoiseFreeRobotsBackWhateverHeadingsWereMeasured) {
   }
 }
 
+TEST(RobustFit, RefusesNoHonestRunsHoweverFarTwoOfThemAreApart) {
+  constexpr int kExperiments = 1000;
+  SlippingRobot robot(13, {.slip_m = 6 * EndNoise{}.slip_m});
+  for (int i = 0; i < kExperiments; ++i) {
+    Runs runs = robot.squares(2);
+    for (int k = 0; k < 2; ++k) runs.cw[k].theta_rad = runs.ccw[k].theta_rad = kNotMeasured;
+    EXPECT_NO_THROW(fit_ends(runs.cw, runs.ccw, {kSide_m, kNominal})) << "experiment " << i;
+  }
+}
+
 /// Root mean squares of the errors of ln E_d and ln E_b over experiments of 5 and 5 squares.
 struct Spread {
   double E_d = 0, E_b = 0;
