@@ -664,6 +664,14 @@ std::vector<OddKind> odd_kinds() {
     drives(fmt::format("the tracker's clock steps by {} s", by_s),
            [=](Trajectory& run) { step_clock(run.truth, by_s); });
   }
+  const auto cut = [](auto& samples) {
+    const double first_s = samples.front().time_s, span_s = samples.back().time_s - first_s;
+    std::erase_if(samples, [=](const auto& at) {
+      return at.time_s < first_s + 0.15 * span_s || at.time_s > first_s + 0.9 * span_s;
+    });
+  };
+  drives("wheels that begin and end while the robot moves", [=](Trajectory& run) { cut(run.wheels); });
+  drives("ground truth that begins and ends while the robot moves", [=](Trajectory& run) { cut(run.truth); });
   const std::pair<const char*, Link> links[] = {
       {"a link that stalls", {}},
       {"a link that stalls, stamps in ms", {.apart_s = 0}},
