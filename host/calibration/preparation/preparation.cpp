@@ -370,10 +370,12 @@ Remark why_step_hidden(const Trajectory& run, const ClockStep& step) {
                     from = fmt::format("{:.1f}", step.begin_s - run.truth.front().time_s),
                     to = fmt::format("{:.1f}", step.end_s - run.truth.front().time_s);
   return {
-      fmt::format("a clock of {} was set anew: by the motion the odometry is {} s later against the ground "
-                  "truth from some moment between {} s and {} s on, and no stamps show it: cut the drive "
-                  "there, or record it again with clocks that nothing sets",
-                  run.name, by, from, to),
+      fmt::format(
+          "by the motion the odometry of {} is {} s later against the ground truth from some moment between "
+          "{} s and {} s on, and no stamps show it: a clock was set anew, or the drive repeats itself and "
+          "was recorded in part; cut it there, or record it again from rest to rest with clocks that "
+          "nothing sets",
+          run.name, by, from, to),
       PreparationProblem::clock_step_hidden,
       {run.name, by, from, to}};
 }
