@@ -39,7 +39,7 @@ Eigen::Array2d speed_mps(const Samples& samples, std::size_t from, int step, dou
 
 /// Whether the samples after a leap come in half the time that as many take otherwise: those that a link held back.
 bool catches_up(const auto& samples, std::size_t after, double late_s, double usual_s) {
-  const auto held_back = static_cast<std::size_t>(std::max(2.0, std::ceil(late_s / usual_s)));
+  const auto held_back = static_cast<std::size_t>(std::max(1.0, late_s / usual_s));
   const std::size_t last = std::min(after + held_back, samples.size() - 1);
   return samples[last].time_s - samples[after].time_s < 0.5 * usual_s * static_cast<double>(last - after);
 }

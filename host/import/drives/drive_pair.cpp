@@ -104,7 +104,7 @@ PairedDrive pair_up(const std::string& name, const DriveFiles& files, ImportedWh
   drive.report.floor = std::move(floor.findings);
   all.insert(all.end(), drive.report.floor.remarks.begin(), drive.report.floor.remarks.end());
   require_turning_wheels(name, drive.run, drive.report.floor);
-  require_times_alike(drive.run, wheel_times, truth_times);
+  require_times_alike(drive.run, drive.report.floor, wheel_times, truth_times);
   settle_direction(name, drive.run, choices.wheels.exchanged, drive.report.floor, all);
   drive.report.summary += summary_of(truth, drive.report.floor);
   return drive;

@@ -113,16 +113,17 @@ double forward_share(const recording::Run& run) {
 
 }  // namespace
 
-void require_times_alike(const recording::Run& run, const AssumedTimeUnit& wheels,
-                         const AssumedTimeUnit& truth) {
-  // A tracker may go on for many drives of which the wheels' file has one.
-  constexpr double kSeveral = 3, kMany = 20;
+void require_times_alike(const recording::Run& run, const truth::FloorFindings& floor,
+                         const AssumedTimeUnit& wheels, const AssumedTimeUnit& truth) {
+  constexpr double kSeveral = 3, kMany = 20, kFurther = 1.5;
   const AssumedTimeUnit& assumed = wheels.unit.empty() ? truth : wheels;
   if (assumed.unit.empty()) return;
   const double by_wheels = moving_s(run.odometry, [](const auto&) { return true; }),
                by_truth = moving_s(run.truth, [](const recording::TruthSample&at) { return at.valid; });
   if (!(by_wheels > 0 && by_truth > 0)) return;
-  if (by_wheels < kSeveral * by_truth && by_truth < kMany * by_wheels) return;
+  // A tracker may go on for many drives of which the wheels' file has one. Then it sees a longer way, too.
+  const double most = floor.path_m > kFurther * floor.wheels_path_m ? kMany : kSeveral;
+  if (by_wheels < kSeveral * by_truth && by_truth < most * by_wheels) return;
   const bool of_wheels = &assumed == &wheels;
   const std::string own = fmt::format("{:.3g}", of_wheels ? by_wheels : by_truth),
                     other = fmt::format("{:.3g}", of_wheels ? by_truth : by_wheels);

@@ -21,9 +21,9 @@ void require_turning_wheels(const std::string& name, const recording::Run& run,
                             const truth::FloorFindings& floor);
 
 /// Throws astro::Error if a unit of time that was assumed, in the wheels' file or in that of the truth, makes the drive several
-/// times as long as it is by the other file, or many times if the truth is the longer one.
-void require_times_alike(const recording::Run& run, const AssumedTimeUnit& wheels,
-                         const AssumedTimeUnit& truth);
+/// times as long as it is by the other file, or many times if the truth has the longer way.
+void require_times_alike(const recording::Run& run, const truth::FloorFindings& floor,
+                         const AssumedTimeUnit& wheels, const AssumedTimeUnit& truth);
 
 /// Whether by its wheels a robot drove backward, which hardly any does for long.
 bool drove_backward(const recording::Run& run);
