@@ -18,7 +18,8 @@ struct TimeName {
   std::optional<int> power;
 };
 
-/// Nothing if the name is not one of times: "time_s", "Timestamp (ms)", "stamp.sec", "millis", "__time", "t".
+/// Nothing if the name is not one of times: "time_s", "Timestamp (ms)", "stamp.sec", "millis", "__time", "t",
+/// also in German, French, Spanish or Italian ("Zeit (ms)").
 std::optional<TimeName> time_name(std::string_view text);
 
 /// Where the times are. Whole seconds, dates or times of day, and the fraction of a second, may stand in two columns.
