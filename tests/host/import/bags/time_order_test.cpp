@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "host/import/wheels/stamp_count.hpp"
+#include "host/import/bags/stamp_count.hpp"
 #include "host/import/wheels/wheel_track.hpp"
 #include "tests/support/base/remarks.hpp"
 
