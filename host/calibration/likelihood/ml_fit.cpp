@@ -22,8 +22,10 @@ constexpr int kMostSteps = 30, kMostRounds = 40;
 constexpr Settled kSettled{1e-3, 0.002}, kRoughly{1, 0.1};
 constexpr double kLargestNoiseStep = 2;
 // A step of the unknowns may need damping if the expected fall of the cost exceeds kFarFall, or exceeds both kNearFall and the
-// fall expected in the round before.
+// fall expected in the round before. Both are for up to ten runs. The cost is a sum over runs, so with more runs the same error of
+// the unknowns makes it fall by more.
 constexpr double kFarFall = 1e4, kNearFall = 100;
+constexpr double kUsualRuns = 10;
 constexpr double kLargestK_m = 1e-2;
 constexpr double kMostE = 0.3;  // ten times that of any robot
 constexpr int kMostPhases = 4;
@@ -184,6 +186,7 @@ double MlFit::cost_of(std::span<const InnovationSums> sums, double e) const {
 /// Noise and unknowns step together after one pass. The information has no cross terms between them, so both steps are Newton
 /// steps.
 void MlFit::fit_with_noise(const Settled& settled) {
+  const double size = std::max(1.0, static_cast<double>(runs_.size()) / kUsualRuns);
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {
     if (!passed_) pass_with_noise();
@@ -193,9 +196,9 @@ void MlFit::fit_with_noise(const Settled& settled) {
     const double noise_moved = distance(state_.noise, noise);
     if (noise_moved < settled.noise && expected < settled.fall) return;
     state_.noise = noise;
-    const bool goes_wrong = expected > kNearFall && expected > before;
+    const bool goes_wrong = expected > kNearFall * size && expected > before;
     before = expected;
-    if (expected < kFarFall && !goes_wrong)
+    if (expected < kFarFall * size && !goes_wrong)
       take(steps);
     else
       maximise(settled);

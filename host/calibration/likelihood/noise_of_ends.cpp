@@ -5,7 +5,7 @@
 namespace astro::calibration {
 namespace {
 
-constexpr int kRounds = 6;  // each takes the slip to within a fifth of the distance that was left
+constexpr int kRounds = 6;  // each leaves a quarter to a half of the distance (60 simulated sets)
 constexpr double kPriorWeight = 4;
 constexpr double kMostAtOnce = 10;
 

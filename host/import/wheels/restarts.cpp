@@ -23,7 +23,7 @@ double step_of(const WheelSample& from, const WheelSample& to) {
   return std::max(std::abs(to.left - from.left), std::abs(to.right - from.right));
 }
 
-/// The step than which only one in twenty is longer, so that a few jumps do not count.
+/// A long step: one in twenty is longer, so that a few jumps do not count.
 double long_step(const Samples& samples) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(step_of(samples[i - 1], samples[i]));
