@@ -14,6 +14,16 @@ namespace {
 
 double deviation(const WallEstimate& found, int index) { return std::sqrt(found.covariance(index, index)); }
 
+/// Of c_R, c_L, b and e on another day. Laps in front of a wall do not show e.
+calibration::FactorCovariance covariance_another_day(const WallEstimate& found) {
+  calibration::DayDrift drift;
+  if (!found.scale) drift.scale = 0;
+  drift.e = calibration::PriorOfE::kStandardDeviation;
+  calibration::FactorCovariance covariance = drift.covariance(found.factors);
+  covariance.topLeftCorner<3, 3>() += found.covariance;
+  return covariance;
+}
+
 }  // namespace
 
 experiment::ParameterFile parameter_file_of(const WallResult& result, const WallJudgement& judgement) {
@@ -30,19 +40,16 @@ experiment::ParameterFile parameter_file_of(const WallResult& result, const Wall
                  {"b", loaded.b_m},
                  {"e", loaded.e},
                  {"kappa0", loaded.kappa0}};
-  file.standard_errors = {{"c_R", deviation(found, 0)},
-                          {"c_L", deviation(found, 1)},
-                          {"b", deviation(found, 2)},
+  const calibration::FactorCovariance covariance = covariance_another_day(found);
+  file.standard_errors = {{"c_R", std::sqrt(covariance(0, 0))},
+                          {"c_L", std::sqrt(covariance(1, 1))},
+                          {"b", std::sqrt(covariance(2, 2))},
                           {"e", std::numeric_limits<double>::quiet_NaN()}};
   // Without a ruler the scale is the loaded one, and is as good as that was.
   file.absolute = found.scale.has_value();
   file.wheel = experiment::NominalWheel{
       result.robot.wheel_diameter_m, std::numbers::pi * result.robot.wheel_diameter_m / result.robot.count_m};
-  if (found.scale) {
-    calibration::FactorCovariance covariance = calibration::FactorCovariance::Zero();
-    covariance.topLeftCorner<3, 3>() = found.covariance;
-    file.covariance = covariance;
-  }
+  if (found.scale) file.covariance = covariance;
   file.slip_K_m = found.noise.K_m;
   file.robot = result.journal.robot;
   file.method = "wall";

@@ -1,5 +1,6 @@
 #include "host/calibration/judgement/cross_validation.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -194,16 +195,6 @@ std::vector<HeldOutRun> HoldOut::judged() const {
   return runs;
 }
 
-/// Whether factors differ by less than those of real robots did from one day to another: E_d by 5e-4 (0.99892 and 0.99946, ten
-/// days apart), b / S and S by less, which more cannot be said of.
-bool are_within_drift(const WheelFactors& a, const WheelFactors& b) {
-  constexpr double kRatio = 5e-4, kSize = 3e-4, kCurvature = 0.02;  // of e: what it may be before any drive
-  const auto scale = [](const WheelFactors& f) { return (f.c_r + f.c_l) / 2; };
-  const auto changed = [](double from, double to) { return std::abs(to / from - 1); };
-  return changed(a.c_r / a.c_l, b.c_r / b.c_l) < kRatio && changed(scale(a), scale(b)) < kSize &&
-         changed(a.b_m / scale(a), b.b_m / scale(b)) < kSize && std::abs(a.e - b.e) < kCurvature;
-}
-
 }  // namespace
 
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
@@ -218,10 +209,10 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   for (const std::vector<std::size_t>& members : groups_of(prepared)) hold_out.hold_out(members, out);
   out.runs = hold_out.judged();
   out.judge();
-  if (out.verdict == Verdict::better && are_within_drift(all.factors, in_use)) {
-    out.within_drift = true;
-    out.verdict = Verdict::undecided;
-  }
+  const int dof = all.covariance(kE, kE) > 0 ? kFactors : kE;  // e is the last, and may be held
+  const Eigen::VectorXd change = (vector_of(all.factors) - vector_of(in_use)).head(dof);
+  const Eigen::MatrixXd another_day = all.covariance_another_day.topLeftCorner(dof, dof);
+  out.require_more_than_drift(change.dot(another_day.ldlt().solve(change)), dof);
   if (out.verdict == Verdict::better && may_be_worse_elsewhere(all, hold_out.change())) {
     out.verdict = Verdict::unknown;
     out.not_judged.push_back(

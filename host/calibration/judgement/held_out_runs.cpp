@@ -73,6 +73,12 @@ void CrossValidation::judge() {
   if (!not_judged.empty() && !clearly_worse) verdict = Verdict::unknown;
 }
 
+void CrossValidation::require_more_than_drift(double chi_square, int dof) {
+  if (verdict != Verdict::better || !(chi_square <= chi_square_95(dof))) return;
+  within_drift = true;
+  verdict = Verdict::undecided;
+}
+
 Remark CrossValidation::without(const std::vector<std::string>& held_out, const Error& error) {
   Remark clause = error.in("without " + joined(held_out) + ", ");
   clause.values.insert(clause.values.end(), held_out.begin(), held_out.end());

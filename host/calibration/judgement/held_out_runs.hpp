@@ -52,6 +52,9 @@ struct CrossValidation {
 
   /// Sets the verdict.
   void judge();
+  /// Takes "better" back if the factors in use may have been right on another day. `chi_square` is that of their difference from
+  /// those found by the errors on another day; `dof` at most 4.
+  void require_more_than_drift(double chi_square, int dof);
   /// For `not_judged`, if a chi-square of what these runs alone show is significant. The values are the names.
   static Remark known_by_these_alone(const std::vector<std::string>& held_out);
   /// For `not_judged`: "without run 1 and run 3, the runs do not separate ...". Its kind is the

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/calibration/likelihood/day_drift.hpp"
 #include "host/calibration/likelihood/slip_events.hpp"
 #include "host/calibration/likelihood/unknowns.hpp"
 #include "host/calibration/motion/trajectory.hpp"
@@ -90,8 +91,12 @@ struct SessionFit {
 
 struct MlEstimate {
   WheelFactors factors;
+  /// The drives' own noise, of which more drives leave less.
   FactorCovariance covariance = FactorCovariance::Zero();
   MlErrors se;
+  /// The same and what the robot changes by from one day to another: of the factors found less those of another day.
+  FactorCovariance covariance_another_day = FactorCovariance::Zero();
+  DayDrift drift;
   std::vector<SessionFit> sessions;  // at least one
   NoiseModel noise;                  // K: its upper 95 % limit if the data do not determine it to a third
   /// The wheel path between the truth samples that the likelihood uses, if closer samples have correlated

@@ -99,7 +99,7 @@ experiment::ExperimentHooks hooks_for(const UmbmarkOptions& options, console::Pr
     progress.clear();
     console::say('\n' + calibration_summary(found));
     console::say(console::table(experiment::side_by_side(changes)));
-    const experiment::FactorErrors& se = found.se;
+    const experiment::FactorErrors& se = found.se_another_day;
     const std::string note =
         experiment::insignificance(changes, {{"c_R", se.c_r}, {"c_L", se.c_l}, {"b", se.b_m}, {"e", se.e}});
     if (!note.empty()) console::say(note);

@@ -50,17 +50,22 @@ std::string squares_text(const calibration::ExperimentSummary& squares) {
 
 /// The factors, and how they differ from those that were loaded.
 std::string factors_text(const Calibration& found) {
-  const experiment::FactorErrors& se = found.se;
+  const experiment::FactorErrors &se = found.se, &day = found.se_another_day;
   const calibration::WheelFactors &now = found.factors, &old = found.loaded;
-  Rows rows{{"", "", "against loaded"},
-            {"c_R", with_error(now.c_r, se.c_r, 8), percent(now.c_r / old.c_r)},
-            {"c_L", with_error(now.c_l, se.c_l, 8), percent(now.c_l / old.c_l)},
-            {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), percent(now.b_m / old.b_m)}};
+  const auto off = [](double error, int decimals) {
+    return std::isfinite(error) ? "± " + known(error, decimals) : "";
+  };
+  Rows rows{{"", "", "another day", "against loaded"},
+            {"c_R", with_error(now.c_r, se.c_r, 8), off(day.c_r, 6), percent(now.c_r / old.c_r)},
+            {"c_L", with_error(now.c_l, se.c_l, 8), off(day.c_l, 6), percent(now.c_l / old.c_l)},
+            {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), off(1000 * day.b_m, 3),
+             percent(now.b_m / old.b_m)}};
   if (found.shows_e())
-    rows.push_back({"e", with_error(now.e, se.e, 6), fmt::format("{:+.6f}", now.e - old.e)});
-  rows.insert(rows.end(), {{"S", with_error(found.scale(), se.scale, 8), percent(found.scale_change())},
-                           {"E_d", with_error(found.E_d(), se.E_d, 7), ""},
-                           {"E_b", with_error(found.E_b(), se.E_b, 7), ""}});
+    rows.push_back({"e", with_error(now.e, se.e, 6), off(day.e, 4), fmt::format("{:+.6f}", now.e - old.e)});
+  rows.insert(rows.end(), {{"S", with_error(found.scale(), se.scale, 8), off(day.scale, 6),
+                            percent(found.scale_change())},
+                           {"E_d", with_error(found.E_d(), se.E_d, 7), off(day.E_d, 6), ""},
+                           {"E_b", with_error(found.E_b(), se.E_b, 7), off(day.E_b, 6), ""}});
   return console::table(rows);
 }
 
@@ -150,7 +155,8 @@ std::string calibration_text(const Calibration& calibration) {
   text += ml != nullptr
               ? '\n' + ml_text(calibration)
               : wrapped(scale_text(calibration)) + left_out_text(calibration) + misfit_text(calibration);
-  return text + '\n' + wrapped(experiment::judgement_sentence(calibration.judgement));
+  return text + '\n' + wrapped(experiment::drift_sentence(calibration.drift)) +
+         wrapped(experiment::judgement_sentence(calibration.judgement));
 }
 
 std::string calibration_summary(const Calibration& calibration) {
@@ -159,10 +165,11 @@ std::string calibration_summary(const Calibration& calibration) {
     return fmt::format("calibrated by {}:\n", calibration.method()) + left_out_text(calibration) +
            wrapped(scale_text(calibration)) + misfit_text(calibration) +
            wrapped(experiment::judgement_sentence(calibration.judgement));
-  std::string text =
-      wrapped(experiment::extent_sentence(*ml)) +
-      wrapped("Standard errors: " + experiment::described(experiment::precision_of(calibration)) + ".") +
-      wrapped(experiment::wheelbase_sentence(calibration)) + sentence_on_scale(calibration);
+  std::string text = wrapped(experiment::extent_sentence(*ml)) +
+                     wrapped("Standard errors of these drives: " +
+                             experiment::described(experiment::precision_of(calibration)) + ".") +
+                     wrapped(experiment::drift_sentence(calibration.drift)) +
+                     wrapped(experiment::wheelbase_sentence(calibration)) + sentence_on_scale(calibration);
   text += verdict_text(*ml);
   return text + wrapped(experiment::judgement_sentence(calibration.judgement));
 }

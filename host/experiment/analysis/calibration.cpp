@@ -114,17 +114,19 @@ void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
                      calibration::MlEstimate& estimate) {
   calibration::WheelFactors& factors = estimate.factors;
   const Eigen::Vector4d lengths(factors.c_r, factors.c_l, factors.b_m, 0);
-  if (std::isfinite(sigma)) {
-    estimate.covariance += sigma * sigma * lengths * lengths.transpose();
-  } else {
-    // The scale is unknown: the loaded one stays, and the covariance loses what the drives seem to tell about the scale.
-    const double keep = (loaded.c_r + loaded.c_l) / (factors.c_r + factors.c_l);
-    Eigen::Matrix4d jacobian = Eigen::Matrix4d::Identity();
-    jacobian -= lengths * Eigen::RowVector4d(1, 1, 0, 0) / (factors.c_r + factors.c_l);
-    jacobian.topRows<3>() *= keep;
-    factors = with_scale_of(loaded, factors);
-    estimate.covariance = jacobian * estimate.covariance * jacobian.transpose();
+  // The scale may be unknown. Then the loaded one stays, and the covariance loses what the drives seem to tell about the scale.
+  const bool known = std::isfinite(sigma);
+  const double keep = (loaded.c_r + loaded.c_l) / (factors.c_r + factors.c_l);
+  Eigen::Matrix4d jacobian = Eigen::Matrix4d::Identity();
+  jacobian -= lengths * Eigen::RowVector4d(1, 1, 0, 0) / (factors.c_r + factors.c_l);
+  jacobian.topRows<3>() *= keep;
+  for (calibration::FactorCovariance* covariance : {&estimate.covariance, &estimate.covariance_another_day}) {
+    if (known)
+      *covariance += sigma * sigma * lengths * lengths.transpose();
+    else
+      *covariance = jacobian * (*covariance) * jacobian.transpose();
   }
+  if (!known) factors = with_scale_of(loaded, factors);
   estimate.se = calibration::errors_of(estimate.covariance, factors);
 }
 
@@ -147,6 +149,18 @@ void require_likely_skew(const calibration::MlEstimate& estimate) {
             name, apart),
         AnalysisProblem::clocks_run_apart, {name, apart});
   }
+}
+
+FactorErrors factor_errors(const calibration::FactorCovariance& covariance, const Calibration& found) {
+  const calibration::WheelFactors& loaded = found.loaded;
+  const calibration::MlErrors se = calibration::errors_of(covariance, found.factors);
+  return {se.c_r,
+          se.c_l,
+          se.b_m,
+          se.E_d * loaded.c_l / loaded.c_r,
+          se.b_m / loaded.b_m,
+          std::isinf(found.truth_scale_sigma) ? FactorErrors::kUnknown : se.scale,
+          se.e};
 }
 
 Calibration by_ml(Phases phases, const MlChoice& choice) {
@@ -175,12 +189,10 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   result.judgement = calibration::cross_validate(runs, compared, ml.estimate, ml.options);
   if (result.truth_scale_sigma > 0) add_scale_error(result.truth_scale_sigma, result.loaded, ml.estimate);
   result.factors = ml.estimate.factors;
-  const calibration::MlErrors& se = ml.estimate.se;
-  result.se = {
-      se.c_r,  se.c_l, se.b_m, se.E_d * result.loaded.c_l / result.loaded.c_r, se.b_m / result.loaded.b_m,
-      se.scale};
-  if (std::isinf(result.truth_scale_sigma)) result.se.scale = FactorErrors::kUnknown;
-  result.se.e = se.e;
+  result.se = factor_errors(ml.estimate.covariance, result);
+  result.drift = ml.estimate.drift;
+  result.covariance_another_day = ml.estimate.covariance_another_day;
+  result.se_another_day = factor_errors(ml.estimate.covariance_another_day, result);
   result.robot = identity_of(first.runs().front().info);
   result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
   result.squares = summary_of_squares(*phases.back());
@@ -228,6 +240,35 @@ void apply(const calibration::LineScale& scale, Calibration& result) {
   se.E_b = se.b_m / result.loaded.b_m;
   se.scale = scale.se;
   result.line_scale = scale;
+}
+
+/// Adds what robots change by from one day to another to the errors of end poses, which know E_d and b / S and, from lines, S. The
+/// factors found are better than those in use only beyond that.
+void add_drift(Calibration& result) {
+  const calibration::WheelFactors& factors = result.factors;
+  const FactorErrors& own = result.se;
+  const bool has_scale = result.line_scale.has_value();
+  const double own_scale = has_scale ? own.scale / result.scale() : 0;
+  const double own_base =
+      std::sqrt(std::max(0.0, std::pow(own.b_m / factors.b_m, 2) - own_scale * own_scale));
+  const calibration::DayDrift errors{std::hypot(own.E_d / result.E_d(), result.drift.E_d),
+                                     has_scale ? std::hypot(own_scale, result.drift.scale) : 0,
+                                     std::hypot(own_base, result.drift.b_over_scale),
+                                     calibration::PriorOfE::kStandardDeviation};
+  if (!std::isfinite(errors.E_d + errors.b_over_scale)) return;  // too few runs for a scatter
+  const calibration::FactorCovariance covariance = errors.covariance(factors);
+  FactorErrors& se = result.se_another_day;
+  se = factor_errors(covariance, result);
+  se.e = FactorErrors::kUnknown;  // nobody looked for it
+  if (has_scale)
+    result.covariance_another_day = covariance;
+  else
+    se.scale = FactorErrors::kUnknown;
+  const double base = result.E_b() / (has_scale ? result.scale_change() : 1);
+  double chi_square =
+      std::pow((result.E_d() - 1) / errors.E_d, 2) + std::pow((base - 1) / errors.b_over_scale, 2);
+  if (has_scale) chi_square += std::pow((result.scale_change() - 1) / errors.scale, 2);
+  result.judgement.require_more_than_drift(chi_square, has_scale ? 3 : 2);
 }
 
 void require_truth(Phases phases) {
@@ -308,6 +349,7 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
     calibration::cross_validate_scale(squares.lines, squares.loaded, *scale, result.judgement);
     apply(*scale, result);
   }
+  add_drift(result);
   return result;
 }
 

@@ -46,7 +46,13 @@ struct Calibration {
   /// of the run that was driven last.
   calibration::WheelFactors loaded;
   calibration::WheelFactors factors;  // what to load; end poses do not show e and keep the loaded one
-  FactorErrors se;
+  FactorErrors se;                    // the drives' own: more drives make them smaller
+  /// On another day: these and what robots change by from one day to another, which is estimated from several sessions or taken
+  /// from other robots.
+  FactorErrors se_another_day;
+  calibration::DayDrift drift;
+  /// Of c_R, c_L, b and e on another day; none where closed squares leave S as loaded.
+  std::optional<calibration::FactorCovariance> covariance_another_day;
   RobotIdentity robot;                // empty if no recording names it
   std::optional<NominalWheel> wheel;  // to which c_R and c_L refer, if a recording names it
   /// End errors of the squares among the runs, if squares of one kind were driven in both directions.

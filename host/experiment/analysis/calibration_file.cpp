@@ -162,16 +162,44 @@ double slip_of(const toml::table& file, const fs::path& path) {
   return K_m;
 }
 
+/// NaN if it is missing or not above 0.
+double error_of(const ParameterFile& file, const std::string& name) {
+  const auto found = file.standard_errors.find(name);
+  return found != file.standard_errors.end() && found->second > 0 ? found->second : FactorErrors::kUnknown;
+}
+
+/// Over the value. NaN if either is missing.
+double relative_error(const ParameterFile& file, const std::string& name) {
+  const auto found = file.parameters.find(name);
+  const double* const value = found == file.parameters.end() ? nullptr : std::get_if<double>(&found->second);
+  return value == nullptr ? FactorErrors::kUnknown : error_of(file, name) / *value;
+}
+
 }  // namespace
+
+std::optional<calibration::FactorCovariance> covariance_in(const ParameterFile& file) {
+  if (file.covariance) return file.covariance;
+  const double e = error_of(file, "e");
+  // With S as loaded, c_R is too large by as much as c_L is too small.
+  const calibration::DayDrift errors{relative_error(file, "c_R") + relative_error(file, "c_L"),
+                                     kErrorOfNominalScale, relative_error(file, "b"),
+                                     std::isfinite(e) ? e : calibration::PriorOfE::kStandardDeviation};
+  if (!std::isfinite(errors.E_d + errors.b_over_scale)) return {};
+  const auto value = [&](const char* name) { return std::get<double>(file.parameters.at(name)); };
+  return errors.covariance({value("c_R"), value("c_L"), value("b")});
+}
 
 void write_calibration(const fs::path& path, const Calibration& calibration) {
   const calibration::WheelFactors &factors = calibration.factors, &loaded = calibration.loaded;
   std::string text =
       "# Spins turn about b, gentle arcs about b (1 + e).\n[parameters]\n" + factor_lines(factors);
-  const FactorErrors& se = calibration.se;
-  text += "[standard_errors]\n" + factor_lines(se.c_r, se.c_l, se.b_m, se.e) + '\n';
-  if (const MlResult* ml = calibration.ml())
-    text += covariance_lines(ml->estimate.covariance) + slip_lines(ml->estimate.noise.K_m);
+  const FactorErrors& se = calibration.se_another_day;
+  text +=
+      "# On another day: the error of these drives, and what robots change by from day to day.\n"
+      "[standard_errors]\n" +
+      factor_lines(se.c_r, se.c_l, se.b_m, se.e) + '\n';
+  if (calibration.covariance_another_day) text += covariance_lines(*calibration.covariance_another_day);
+  if (const MlResult* ml = calibration.ml()) text += slip_lines(ml->estimate.noise.K_m);
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" + factor_lines(loaded);

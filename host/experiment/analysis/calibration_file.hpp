@@ -17,7 +17,8 @@ inline constexpr const char* kFoundFactors = "Found by Astrolabe, to be uploaded
 
 using ParameterValues = std::map<std::string, robot::Value>;
 
-/// Writes [parameters] c_R, c_L, b, e, kappa0; [standard_errors] and, from maximum likelihood, [covariance] and [slip];
+/// Writes [parameters] c_R, c_L, b, e, kappa0; [standard_errors] and, where S is known, [covariance], both on another day; from
+/// maximum likelihood [slip];
 /// [nominal], the wheel that c_R and c_L refer to (without counts if the recordings had none), and [robot], where they are known;
 /// [carried]; [calibration] with how it was found; [verdict] whether it is better.
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
@@ -44,6 +45,13 @@ struct ParameterFile {
   calibration::Verdict verdict = calibration::Verdict::unknown;  // [verdict]
   std::string verdict_sentence;                                  // "" in a file without one
 };
+
+/// Without a measured length S is as loaded, with the error of a nominal wheel: radius of a tyre, load and pressure.
+inline constexpr double kErrorOfNominalScale = 0.005;
+
+/// [covariance], or what [standard_errors] say of c_R, c_L and b where S is as loaded: E_d and b / S, and kErrorOfNominalScale. None
+/// without either.
+std::optional<calibration::FactorCovariance> covariance_in(const ParameterFile& file);
 
 /// Writes a file that read_parameter_file can read. For results that are no Calibration, because they were not found from
 /// recordings.

@@ -95,6 +95,12 @@ nlohmann::json matrix_json(const calibration::FactorCovariance& covariance) {
   return rows;
 }
 
+nlohmann::json errors_json(const FactorErrors& se) {
+  return {{"E_b", number(se.E_b)}, {"E_d", number(se.E_d)}, {"scale", number(se.scale)},
+          {"c_R", number(se.c_r)}, {"c_L", number(se.c_l)}, {"b_m", number(se.b_m)},
+          {"e", number(se.e)}};
+}
+
 nlohmann::json eccentricity_json(const calibration::Eccentricity& wheel) {
   return {{"amplitude_m", number(wheel.amplitude_m)},
           {"standard_error_m", number(wheel.standard_error_m)},
@@ -207,14 +213,17 @@ nlohmann::json to_json(const calibration::ExperimentSummary& summary) {
 
 nlohmann::json to_json(const Calibration& calibration) {
   nlohmann::json json = to_json(calibration.factors);
-  const FactorErrors& se = calibration.se;
   json["method"] = calibration.method();
   json["E_d"] = calibration.E_d();
   json["E_b"] = calibration.E_b();
   json["scale"] = calibration.scale();
-  json["standard_errors"] = {{"E_b", number(se.E_b)}, {"E_d", number(se.E_d)}, {"scale", number(se.scale)},
-                             {"c_R", number(se.c_r)}, {"c_L", number(se.c_l)}, {"b_m", number(se.b_m)},
-                             {"e", number(se.e)}};
+  json["standard_errors"] = errors_json(calibration.se);
+  json["standard_errors_another_day"] = errors_json(calibration.se_another_day);
+  json["drift"] = {{"E_d", calibration.drift.E_d},
+                   {"scale", calibration.drift.scale},
+                   {"b_over_scale", calibration.drift.b_over_scale},
+                   {"e", calibration.drift.e},
+                   {"sessions", calibration.drift.sessions}};
   // "carried" is the name of the loaded factors in the files of this format; a new name would be a new format.
   json["carried"] = to_json(calibration.loaded);
   if (calibration.squares) add_squares(json, *calibration.squares);

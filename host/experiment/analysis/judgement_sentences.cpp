@@ -75,6 +75,22 @@ std::string judgement_sentence(const CrossValidation& judgement) {
       seen, rest);
 }
 
+std::string drift_sentence(const calibration::DayDrift& drift) {
+  const std::string figures =
+      fmt::format("E_d by {:.2g} %, S by {:.2g} %, b / S by {:.2g} % and e by {:.1g}", 100 * drift.E_d,
+                  100 * drift.scale, 100 * drift.b_over_scale, drift.e);
+  if (drift.sessions < 2)
+    return fmt::format(
+        "From one day to another real robots change by about as much as this: {}. It is part of the errors "
+        "on "
+        "another day, and is taken from other robots, because drives of one session cannot show it.",
+        figures);
+  return fmt::format(
+      "From one day to another this robot changes by about as much as this: {}. It is part of the errors on "
+      "another day, and was estimated from {} sessions and from other robots, which count like four.",
+      figures, drift.sessions);
+}
+
 std::string_view name_of(Verdict verdict) {
   for (const auto& [one, name] : kNames)
     if (one == verdict) return name;

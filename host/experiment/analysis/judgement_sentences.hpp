@@ -12,6 +12,9 @@ namespace astro::experiment {
 /// ..., so use it.", or "Not better than what the robot carries: ... Keep what it carries."
 std::string judgement_sentence(const calibration::CrossValidation& judgement);
 
+/// By how much the robot changes from one day to another, and from what that is known.
+std::string drift_sentence(const calibration::DayDrift& drift);
+
 /// "better", "worse", "undecided", "unknown": for files and programs.
 std::string_view name_of(calibration::Verdict verdict);
 /// Any other name gives Verdict::unknown: a file of an older version has no verdict.

@@ -67,6 +67,7 @@ Verdict verdict_on(const DriveModel& model, const WheelFactors& in_use, int runs
   return cross_validate(drives, in_use, all, options).verdict;
 }
 
+// 95 % of the days are within 3.08 standard deviations in four directions.
 TEST(CrossValidation, CallsNothingBetterThatDiffersByLessThanRobotsDoFromDayToDay) {
   const DriveModel model = quiet_drive();
   const std::vector<Trajectory> drives = varied_drives(model);
@@ -75,7 +76,9 @@ TEST(CrossValidation, CallsNothingBetterThatDiffersByLessThanRobotsDoFromDayToDa
     return cross_validate(drives, in_use, estimate_ml(drives, in_use, known_clock()), known_clock());
   };
   for (const Wrong what : {Wrong::ratio, Wrong::scale, Wrong::wheelbase}) {
-    const double limit = what == Wrong::ratio ? 5e-4 : 3e-4;
+    const DayDrift drift;
+    double limit = 3.08 * (what == Wrong::ratio ? drift.E_d : drift.b_over_scale);
+    if (what == Wrong::scale) limit /= std::sqrt(2);  // of S and, because b stays, of b / S
     const CrossValidation within = judged(what, 0.9 * limit), beyond = judged(what, 1.1 * limit);
     EXPECT_EQ(within.verdict, Verdict::undecided);
     EXPECT_TRUE(within.little_to_gain());

@@ -79,12 +79,13 @@ TEST_F(CalibrationFile, KeepsCovarianceAndNominalWheelOfMaximumLikelihood) {
   MlResult ml;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) ml.estimate.covariance(i, j) = 1e-9 / (1 + i + j);
+  found.covariance_another_day = 2 * ml.estimate.covariance;
   found.detail = ml;
   found.wheel = NominalWheel{0.072, 2803.2};
   const std::filesystem::path path = folder_.path() / "calib.toml";
   write_calibration(path, found);
   const ParameterFile read = read_parameter_file(path);
-  EXPECT_EQ(read.covariance, ml.estimate.covariance);
+  EXPECT_EQ(read.covariance, found.covariance_another_day);
   EXPECT_EQ(read.slip_K_m, ml.estimate.noise.K_m);
   EXPECT_EQ(read.wheel, found.wheel);
   EXPECT_TRUE(read.absolute);
@@ -96,7 +97,7 @@ TEST_F(CalibrationFile, KeepsEAndWhatWasLoadedAndItsError) {
   found.factors.e = 0.0312345678;
   found.factors.kappa0 = 0.2;
   found.loaded.e = -0.01;
-  found.se.e = 0.002;
+  found.se_another_day.e = 0.002;
   const std::filesystem::path path = folder_.path() / "calib.toml";
   write_calibration(path, found);
   const ParameterFile read = read_parameter_file(path);
@@ -104,6 +105,21 @@ TEST_F(CalibrationFile, KeepsEAndWhatWasLoadedAndItsError) {
   EXPECT_EQ(std::get<double>(read.parameters.at("kappa0")), 0.2);
   EXPECT_EQ(read.loaded.at("e"), -0.01);
   EXPECT_EQ(read.standard_errors.at("e"), 0.002);
+}
+
+// A tape measure gives standard errors of c_R, c_L and b alone.
+TEST_F(CalibrationFile, WithoutACovarianceIsAsUncertainAsItsStandardErrorsAndANominalScale) {
+  ParameterFile tape;
+  tape.parameters = {{"c_R", 1.002}, {"c_L", 0.998}, {"b", 0.29}};
+  EXPECT_FALSE(covariance_in(tape).has_value());
+  tape.standard_errors = {{"c_R", 3e-4}, {"c_L", 3e-4}, {"b", 2.9e-4}, {"e", FactorErrors::kUnknown}};
+  const auto covariance = covariance_in(tape);
+  ASSERT_TRUE(covariance.has_value());
+  const calibration::MlErrors se = calibration::errors_of(*covariance, {1.002, 0.998, 0.29});
+  EXPECT_NEAR(se.E_d, 6e-4, 1e-5);  // one wheel is too large by as much as the other is too small
+  EXPECT_NEAR(se.b_over_scale_m, 2.9e-4, 1e-5);
+  EXPECT_NEAR(se.scale, kErrorOfNominalScale, 1e-5);
+  EXPECT_EQ(se.e, calibration::PriorOfE::kStandardDeviation);
 }
 
 TEST_F(CalibrationFile, WritesAnEOfZeroSoThatItResetsTheRobots) {

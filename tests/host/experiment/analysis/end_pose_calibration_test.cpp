@@ -43,6 +43,16 @@ TEST(EndPoseCalibration, SaysWhereNoWheelsBringTheRobotToTheEnds) {
   EXPECT_TRUE(calibrate(wrong, MethodChoice{}).misfit);
 }
 
+// Squares without scatter have hardly an error of their own, and robots change from one day to another all the same.
+TEST(EndPoseCalibration, CountsTheChangeFromDayToDayInTheErrorsThatAreKept) {
+  const Calibration found = calibrate(squares(), MethodChoice{});
+  EXPECT_NEAR(std::pow(found.se_another_day.E_d / found.E_d(), 2),
+              std::pow(found.se.E_d / found.E_d(), 2) + std::pow(found.drift.E_d, 2), 1e-9);
+  EXPECT_NEAR(std::pow(found.se_another_day.b_m / found.factors.b_m, 2),
+              std::pow(found.se.b_m / found.factors.b_m, 2) + std::pow(found.drift.b_over_scale, 2), 1e-9);
+  EXPECT_FALSE(found.covariance_another_day) << "S is as loaded";
+}
+
 TEST(EndPoseCalibration, LeavesTheScaleAsLoadedWithoutALine) {
   const Calibration found = calibrate(squares(), MethodChoice{});
   EXPECT_NEAR(found.scale(), 1, 1e-12);

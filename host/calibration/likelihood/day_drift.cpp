@@ -1,0 +1,115 @@
+#include "host/calibration/likelihood/day_drift.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace astro::calibration {
+namespace {
+
+// The defaults count like this many sessions.
+constexpr double kPriorSessions = 4;
+// A session that does not know a ratio to this part says nothing of a drift that is far less.
+constexpr double kSaysNothing = 0.01;
+
+/// Relative changes of E_d, S and b / S by those of the factors.
+Eigen::Matrix<double, 3, kFactors> ratios_by_factors(const WheelFactors& f) {
+  const double both = f.c_r + f.c_l;
+  Eigen::Matrix<double, 3, kFactors> jacobian;
+  jacobian << 1 / f.c_r, -1 / f.c_l, 0, 0,  //
+      1 / both, 1 / both, 0, 0,             //
+      -1 / both, -1 / both, 1 / f.b_m, 0;
+  return jacobian;
+}
+
+std::vector<Pool> sessions_of(std::span<const InnovationSums> drives, const FixedParameters& fixed,
+                              const PriorOfE& prior) {
+  std::vector<Pool> sessions;
+  for (const InnovationSums& drive : drives) {
+    const auto session = static_cast<std::size_t>(drive.session);
+    if (sessions.size() <= session) sessions.resize(session + 1, Pool(fixed, prior));
+    sessions[session].add(reduced(drive, fixed, 0));
+  }
+  return sessions;
+}
+
+/// One value of each session, with the variance that noise gives it.
+struct Value {
+  double value = 0, variance = 0;
+};
+
+/// The standard deviation of the difference between two days. The variance between sessions takes one step of Fisher's scoring of the
+/// restricted likelihood from the usual one, which gives the posterior mean where noise is nothing beside it.
+double between_two_days(const std::vector<Value>& sessions, double usual_difference) {
+  if (sessions.size() < 2) return usual_difference;
+  // A day is off the mean of all days by half the variance of the difference between two.
+  const double usual = usual_difference * usual_difference / 2;
+  double weights = 0, squares = 0, sum = 0;
+  for (const Value& session : sessions) {
+    const double weight = 1 / (session.variance + usual);
+    weights += weight;
+    squares += weight * weight;
+    sum += weight * session.value;
+  }
+  double slope = 0;
+  for (const Value& session : sessions) {
+    const double weight = 1 / (session.variance + usual);
+    slope += std::pow(weight * (session.value - sum / weights), 2) - weight * (1 - weight / weights);
+  }
+  const auto count = static_cast<double>(sessions.size());
+  const double curvature = squares * (count - 1) / count + kPriorSessions / (usual * usual);
+  return std::sqrt(2 * std::max(0.0, usual + slope / curvature));
+}
+
+}  // namespace
+
+FactorMatrix DayDrift::covariance(const WheelFactors& f) const {
+  // ln c_R = ln S + ln E_d / 2, ln c_L = ln S - ln E_d / 2, ln b = ln (b / S) + ln S, to first order.
+  FactorMatrix jacobian;
+  jacobian << f.c_r / 2, f.c_r, 0, 0,  //
+      -f.c_l / 2, f.c_l, 0, 0,         //
+      0, f.b_m, f.b_m, 0,              //
+      0, 0, 0, 1;
+  const FactorVector variances(E_d * E_d, scale * scale, b_over_scale * b_over_scale, e * e);
+  return jacobian * variances.asDiagonal() * jacobian.transpose();
+}
+
+DayDrift drift_between_sessions(std::span<const InnovationSums> drives, const FixedParameters& fixed,
+                                const PriorOfE& prior, const WheelFactors& factors) {
+  const std::vector<Pool> sessions = sessions_of(drives, fixed, prior);
+  DayDrift drift;
+  drift.sessions = static_cast<int>(sessions.size());
+  if (drift.sessions < 2) return drift;
+  const Eigen::Matrix<double, 3, kFactors> jacobian = ratios_by_factors(factors);
+  std::array<std::vector<Value>, 3> values;
+  for (const Pool& session : sessions) {
+    const Eigen::Vector3d off = jacobian * session.factor_step();
+    const Eigen::Matrix3d covariance = jacobian * session.factor_covariance() * jacobian.transpose();
+    for (int i = 0; i < 3; ++i)
+      if (covariance(i, i) < kSaysNothing * kSaysNothing)
+        values[static_cast<std::size_t>(i)].push_back({off[i], covariance(i, i)});
+  }
+  drift.E_d = between_two_days(values[0], drift.E_d);
+  drift.scale = between_two_days(values[1], drift.scale);
+  drift.b_over_scale = between_two_days(values[2], drift.b_over_scale);
+  return drift;
+}
+
+FactorMatrix covariance_on_another_day(std::span<const InnovationSums> drives, const FixedParameters& fixed,
+                                       const PriorOfE& prior, const WheelFactors& factors,
+                                       const FactorMatrix& own, const DayDrift& drift) {
+  FactorMatrix of_a_day = drift.covariance(factors) / 2;
+  if (fixed.e) of_a_day(kE, kE) = 0;
+  const FactorMatrix inverse = pool_of(drives, fixed, prior).factor_covariance();
+  FactorMatrix sum = own + of_a_day;
+  // The drives' factors are a mean of the sessions', each weighted by its information. The prior has none of it.
+  for (const Pool& session : sessions_of(drives, fixed, PriorOfE{prior.e, 0})) {
+    const FactorMatrix weight = inverse * session.information();
+    sum += weight * of_a_day * weight.transpose();
+  }
+  return sum;
+}
+
+}  // namespace astro::calibration
