@@ -30,11 +30,18 @@ double number_of(const experiment::ParameterFile& file, const char* name, double
 
 void take_calibration(const std::filesystem::path& path, live::DriverOptions& options) {
   const experiment::ParameterFile file = experiment::read_parameter_file(path);
+  const auto covariance = experiment::covariance_in(file);
+  if (!covariance)
+    throw Error(
+        "'" + path.string() +
+        "' does not say how well its factors are known: it needs [covariance], or [standard_errors] of c_R, "
+        "c_L and b, as 'astrolabe calibrate' writes them");
   if (!file.covariance)
-    throw Error("'" + path.string() +
-                "' does not say how well its factors are known: calibrate with --method ml, which does");
+    console::say(
+        fmt::format("no length was measured for {}, so the covariance of /odom takes S as known to {:.1g} %",
+                    path.string(), 100 * experiment::kErrorOfNominalScale));
   options.errors =
-      calibration::OdometryErrors{file.slip_K_m.value_or(calibration::NoiseModel().K_m), *file.covariance};
+      calibration::OdometryErrors{file.slip_K_m.value_or(calibration::NoiseModel().K_m), *covariance};
   options.calibrated = calibration::WheelFactors{number_of(file, "c_R", 1), number_of(file, "c_L", 1),
                                                  number_of(file, "b", 0), number_of(file, "e", 0)};
 }
