@@ -141,7 +141,7 @@ std::string render_html(const ReportInput& input) {
   const auto groups = group_runs(input.phases);
   return render_page(
       input.title,
-      {headline(input), drive_comparison(input), parameter_table(input), history(input), scatter(input),
+      {parameter_table(input), headline(input), drive_comparison(input), history(input), scatter(input),
        factor_table(input), rms_tables(input), run_figures(input, groups), provenance(input)},
       figure_data(input.phases, groups));
 }

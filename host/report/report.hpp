@@ -62,6 +62,8 @@ struct ReportInput {
   std::vector<DescriptionRow> description;  // the robot and the set-up
   std::vector<Phase> phases;                // in the order they were driven; the first is the reference
   std::vector<ParameterRow> parameters;
+  bool not_loaded = false;                      // `after` of the parameters was found and is not in the robot
+  std::string reason;                           // whether to use them, and why
   std::optional<DriveComparison> comparison{};  // for drives that are no squares
   std::string method;              // how the parameters were found; a blank line starts a new paragraph
   std::vector<std::string> notes;  // anything else a reader should know, such as seeds

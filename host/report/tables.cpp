@@ -170,11 +170,13 @@ Section parameter_table(const ReportInput& input) {
   std::string rows;
   for (const auto& p : input.parameters) rows += parameter_row(p);
   if (rows.empty()) return out;
-  out.body =
-      R"(<div class="scroll"><table class="wide"><caption>The standard error belongs to the value after.</caption>
-<thead><tr><th scope="col">Parameter</th><th scope="col">Before</th><th scope="col">After</th>
-<th scope="col">Standard error</th><th scope="col" class="text">Unit</th><th scope="col">Change</th></tr></thead><tbody>)" +
-      rows + "</tbody></table></div>";
+  const char* const after = input.not_loaded ? "Found, not loaded" : "After";
+  if (!input.reason.empty()) out.body = "<p>" + escape(input.reason) + "</p>\n";
+  out.body += fmt::format(
+      R"(<div class="scroll"><table class="wide"><caption>The standard error is that of the new value on another day.</caption>
+<thead><tr><th scope="col">Parameter</th><th scope="col">Before</th><th scope="col">{}</th>
+<th scope="col">Standard error</th><th scope="col" class="text">Unit</th><th scope="col">Change</th></tr></thead><tbody>{}</tbody></table></div>)",
+      after, rows);
   return out;
 }
 

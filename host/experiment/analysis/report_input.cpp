@@ -38,13 +38,13 @@ std::vector<Row> description_of(const Results& results) {
 }
 
 /// The factors loaded in phase `i`, with the errors of the calibration that it comes from.
-std::vector<report::LoadedValue> loaded_of(const Results& results, std::size_t i) {
+std::vector<report::LoadedValue> loaded_of(const Results& results, std::size_t i, bool shows_e) {
   const calibration::WheelFactors& loaded = results.phases[i].squares().loaded;
   const FactorErrors unknown;
   const bool found = i > 0 && results.phases[i - 1].calibration.has_value();
-  const FactorErrors& se = found ? results.phases[i - 1].calibration->se : unknown;
+  const FactorErrors& se = found ? results.phases[i - 1].calibration->se_another_day : unknown;
   std::vector<report::LoadedValue> values{{loaded.c_r, se.c_r}, {loaded.c_l, se.c_l}, {loaded.b_m, se.b_m}};
-  if (results.shows_e()) values.push_back({loaded.e, se.e});
+  if (shows_e) values.push_back({loaded.e, se.e});
   return values;
 }
 
@@ -85,7 +85,7 @@ std::string end_pose_text(const Calibration& calibration) {
 std::string method_text(const Calibration& calibration) {
   const std::string name = fmt::format("Method: {}.", calibration.method());
   return name + (calibration.ml() != nullptr ? ' ' + ml_text(calibration) : end_pose_text(calibration)) +
-         "\n\n" + judgement_sentence(calibration.judgement);
+         "\n\n" + drift_sentence(calibration.drift);
 }
 
 }  // namespace
@@ -94,28 +94,29 @@ report::ReportInput report_input(const Results& results) {
   report::ReportInput input;
   input.title = "Odometry calibration of " + results.journal.robot_name;
   input.description = description_of(results);
+  const calibration::WheelFactors& old = results.before().squares().loaded;
+  const Calibration* const not_loaded = results.not_loaded();
+  const Calibration* const found = not_loaded != nullptr ? not_loaded : results.last_calibration();
+  const calibration::WheelFactors& now =
+      not_loaded != nullptr ? not_loaded->factors : results.after().squares().loaded;
+  const FactorErrors se = found != nullptr ? found->se_another_day : FactorErrors{};
+  const bool shows_e = results.shows_e() || now.e != 0;
   for (std::size_t i = 0; i < results.phases.size(); ++i) {
     const PhaseResult& phase = results.phases[i];
     input.phases.push_back({phase.name, phase.runs(), phase.summary, phase.squares().cw, phase.squares().ccw,
-                            loaded_of(results, i)});
+                            loaded_of(results, i, shows_e)});
   }
-  const calibration::WheelFactors& old = results.before().squares().loaded;
-  const calibration::WheelFactors& now = results.after().squares().loaded;
-  const Calibration* last = results.last_calibration();
-  const FactorErrors se = last != nullptr ? last->se : FactorErrors{};
   input.parameters = {{"c_R", "", old.c_r, now.c_r, se.c_r},
                       {"c_L", "", old.c_l, now.c_l, se.c_l},
                       {"b", "m", old.b_m, now.b_m, se.b_m}};
-  if (results.shows_e()) input.parameters.push_back({"e", "", old.e, now.e, se.e});
+  if (shows_e) input.parameters.push_back({"e", "", old.e, now.e, se.e});
   if (const std::string other = results.other_robot(); !other.empty()) input.notes.push_back(other + '.');
   for (const std::string& square : results.left_out()) input.notes.push_back(square + '.');
-  if (const Calibration* const found = results.not_loaded(); found != nullptr) {
-    input.notes.push_back("The calibration from these drives was not loaded. " +
-                          judgement_sentence(found->judgement));
-    input.method = method_text(*found);
-  } else if (last != nullptr) {
-    input.method = method_text(*last);
-  }
+  if (found == nullptr) return input;
+  input.not_loaded = not_loaded != nullptr;
+  input.reason =
+      (input.not_loaded ? "The factors found were not loaded. " : "") + judgement_sentence(found->judgement);
+  input.method = method_text(*found);
   return input;
 }
 

@@ -172,8 +172,11 @@ TEST(Experiment, FactorsThatAreWorseOnUnseenDrivesAreNotLoaded) {
   EXPECT_EQ(results.not_loaded()->judgement.verdict, verdict);
   EXPECT_THAT(to_json(results)["not_loaded"].get<std::string>(),
               HasSubstr("Worse than what the robot carries"));
-  EXPECT_THAT(report_input(results).notes,
-              testing::Contains(testing::AllOf(HasSubstr("was not loaded"), HasSubstr("Worse than"))));
+  const report::ReportInput page = report_input(results);
+  EXPECT_TRUE(page.not_loaded);
+  EXPECT_THAT(page.reason, testing::AllOf(HasSubstr("were not loaded"), HasSubstr("Worse than")));
+  EXPECT_EQ(page.parameters.at(0).after, results.not_loaded()->factors.c_r)
+      << "what was found is shown all the same";
   EXPECT_THAT(notices, testing::Contains(support::Tells(ExperimentProblem::parameters_kept,
                                                         (folder.path() / "before").string(),
                                                         (folder.path() / "calib-before.toml").string())));
