@@ -40,6 +40,14 @@ std::string millimetres(double metres, double error) {
   return fmt::format("{:.1f} ± {:.1f}", 1000 * metres, 1000 * error);
 }
 
+/// By how much the measured lines of a phase are longer than odometry said, in percent; "" without lines.
+std::string lines_beyond_odometry(const PhaseResult& phase) {
+  const auto scale = calibration::scale_of_lines(phase.squares().lines);
+  if (!scale) return "";
+  const double loaded = phase.squares().lines.front().loaded_scale;
+  return fmt::format("{:+.2f} ± {:.2f}", 100 * (scale->scale / loaded - 1), 100 * scale->se / loaded);
+}
+
 std::vector<std::string> row(const Results& results, const std::string& name, const std::string& unit,
                              const auto& value) {
   std::vector<std::string> cells{name, unit};
@@ -89,10 +97,17 @@ std::string Results::other_robot() const {
 }
 
 std::string Results::verdict() const {
-  return fmt::format("E_max_syst is {}: improvement factor {}. {}", report::claim(gain()),
+  const std::string was = lines_beyond_odometry(before()), is = lines_beyond_odometry(after());
+  const std::string lines =
+      was.empty() || is.empty() || phases.size() < 2
+          ? ""
+          : fmt::format(" Measured lines differ from what odometry said by {} % before and {} % after.", was,
+                        is);
+  return fmt::format("E_max_syst is {}: improvement factor {}. {}{}", report::claim(gain()),
                      report::describe(gain()),
                      report::verdict_sentence(calibration::E_max_syst_mm(before().summary),
-                                              calibration::E_max_syst_mm(after().summary)));
+                                              calibration::E_max_syst_mm(after().summary)),
+                     lines);
 }
 
 Results read_results(const fs::path& folder, recording::Damage damage) {
@@ -200,6 +215,8 @@ std::vector<std::vector<std::string>> before_after_table(const Results& results)
   };
   cluster("cw", &calibration::ExperimentSummary::cw);
   cluster("ccw", &calibration::ExperimentSummary::ccw);
+  if (!lines_beyond_odometry(results.before()).empty())
+    rows.push_back(row(results, "lines beyond odometry", "%", lines_beyond_odometry));
   rows.push_back(row(results, "c_R", "", [](const PhaseResult& phase) {
     return fmt::format("{:.7f}", phase.squares().loaded.c_r);
   }));

@@ -163,6 +163,28 @@ TEST(Tape, FindsTheRobotOfTheThesisWithItsScaleAndKnowsHowWell) {
   EXPECT_LT(squares, 30);
 }
 
+TEST(Tape, SaysWhatTheLinesOfAfterwardsShowOfTheScale) {
+  sim::Config robot = thesis_robot(kThesisSlip_m, 1);
+  robot.scale = 1.01;
+  Desk desk(robot);
+  const TemporaryFolder folder;
+  PersonWithTape person(desk, {});
+  Plan plan;
+  plan.truth = "manual";
+  plan.runs = 3;
+  ExperimentHooks hooks;
+  hooks.ready = [&](const RunSpec& next, const auto&) { return person.put_on_mark(next), Redo::no; };
+  hooks.doubt = [&](const DoubtfulRun& run) { return person.doubt(run); };
+  hooks.decide = [](const Calibration&, const auto&) { return Decision::load; };
+  truth::ManualSource tape([&](const truth::Question& question) { return person.answer(question); });
+  const Results results = run_experiment(desk.client, tape, plan, folder.path(), hooks);
+  ASSERT_EQ(results.phases.size(), 2U);
+  // Three lines of 3 m, each read to 2 mm, show the scale to some 0.05 %.
+  EXPECT_NEAR(calibration::scale_of_lines(results.after().squares().lines)->scale, robot.scale, 4 * 5e-4);
+  EXPECT_THAT(results.verdict(),
+              testing::ContainsRegex("odometry said by [+](1|0[.]9).* before and [+-]0[.][01].* after"));
+}
+
 TEST(Tape, BearsFourMistakesInDifferentRunsAndALineThatNobodyCorrects) {
   if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
   double squares = 0;
