@@ -211,7 +211,8 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   out.judge();
   const int dof = all.covariance(kE, kE) > 0 ? kFactors : kE;  // e is the last, and may be held
   const Eigen::VectorXd change = (vector_of(all.factors) - vector_of(in_use)).head(dof);
-  const Eigen::MatrixXd another_day = all.covariance_another_day.topLeftCorner(dof, dof);
+  // The factors in use have an error of their own, which is taken to be like that of these drives.
+  const Eigen::MatrixXd another_day = (all.covariance_another_day + all.covariance).topLeftCorner(dof, dof);
   out.require_more_than_drift(change.dot(another_day.ldlt().solve(change)), dof);
   if (out.verdict == Verdict::better && may_be_worse_elsewhere(all, hold_out.change())) {
     out.verdict = Verdict::unknown;
