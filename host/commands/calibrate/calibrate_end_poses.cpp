@@ -72,7 +72,7 @@ void refuse_mistakes(const experiment::Squares& squares) {
 constexpr Advice kEndPosesAdvice[] = {
     {calibration::EndPoseProblem::same_runs, ": name the other file, or keep them with --keep-odd"},
     {calibration::EndPoseProblem::misfit_with_mistake,
-     ". Correct it, or keep the runs as they are with --keep-odd"}};
+     ": correct it, or keep the runs as they are with --keep-odd"}};
 
 }  // namespace
 

@@ -192,7 +192,8 @@ constexpr Advice kImportAdvice[] = {
     {importing::WheelProblem::poses_unclear,
      ": name one with --truth-topic, and its frames with --truth-frames PARENT,CHILD"},
     {importing::WheelProblem::controller_unclear, ": name one with --controller"},
-    {truth::FloorRemark::units_differ, ", or say that of the ground truth with --truth-unit"},
+    {truth::FloorRemark::units_differ,
+     ": check the units, or say that of the ground truth with --truth-unit"},
     {truth::FloorProblem::no_up_axis, "; or give the axis that points up with --up"},
     {truth::BodyProblem::unknown, ": name one of them with --body"},
 };

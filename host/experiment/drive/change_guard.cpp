@@ -78,10 +78,8 @@ calibration::WheelFactors loaded_factors(const robot::RemoteParameters& robot) {
 
 void require_e(std::span<const robot::ParameterRow> robot) {
   if (knows_e(robot)) return;
-  throw Error(
-      "maximum likelihood finds a factor e, and this robot's firmware has no e: update the robot's firmware, "
-      "or choose a method that takes end poses",
-      UploadProblem::e_needed);
+  throw Error("maximum likelihood finds a factor e, and this robot's firmware has no e",
+              UploadProblem::e_needed);
 }
 
 ParameterValues understood_by(std::span<const robot::ParameterRow> robot, ParameterValues values) {

@@ -151,7 +151,7 @@ void settle_units(std::vector<FloorPoint>& points, const BodyTrack& track,
   if (findings.unit_ratio != 1 && !choices.length_factor)
     findings.remarks.push_back(
         {fmt::format("the path is {:.4g} times as long as that of the wheels, so one of the two "
-                     "has another unit of length than it seems{}: check the units",
+                     "has another unit of length than it seems{}",
                      findings.length_ratio,
                      stated ? "" : "; the file states none, and its positions were converted"),
          FloorRemark::units_differ,

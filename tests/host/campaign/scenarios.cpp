@@ -8,9 +8,9 @@ namespace {
 
 constexpr const char* kFactors = "[parameters]\nc_R = 1.002\nc_L = 0.998\nb = 0.289\n";
 constexpr const char* kRuns =
-    "ex_mm,ey_mm,etheta_deg\n100,-300,1.0\n110,-310,1.1\n90,-290,0.9\n105,-305,1.0\n95,-295,1.05\n";
+    "ex_mm,ey_mm,etheta_deg\n-75,-80,3.0\n-65,-90,3.1\n-85,-70,2.9\n-70,-85,3.0\n-80,-75,3.05\n";
 constexpr const char* kOtherRuns =
-    "ex_mm,ey_mm,etheta_deg\n100,300,-1.0\n110,310,-1.1\n90,290,-0.9\n105,305,-1.0\n95,295,-1.05\n";
+    "ex_mm,ey_mm,etheta_deg\n178,-160,6.6\n188,-170,6.7\n168,-150,6.5\n183,-165,6.6\n173,-155,6.65\n";
 
 void nothing(const Place&) {}
 

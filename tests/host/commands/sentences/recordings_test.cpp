@@ -179,7 +179,7 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithATableOfEndPoses) {
        "with --keep-odd"},
       {"exchanged files", ends("was-ccw.csv", "", "was-cw.csv"),
        "no wheels and no wheelbase bring the robot to these ends; they would fit if the directions were "
-       "exchanged. Correct it, or keep the runs as they are with --keep-odd"},
+       "exchanged: correct it, or keep the runs as they are with --keep-odd"},
       {"a row of another length", ends("long.csv"),
        "long.csv, line 2: the row has 3 cells and the header 2: write numbers with a decimal point, or "
        "separate "

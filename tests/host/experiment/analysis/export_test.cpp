@@ -172,6 +172,7 @@ class ExportedFiles : public testing::Test {
     MlResult ml;
     ml.estimate.factors = found.factors;
     ml.estimate.covariance.topLeftCorner<3, 3>() << 1e-10, 2e-11, 0, 2e-11, 1e-10, 0, 0, 0, 3e-10;
+    found.covariance_another_day = ml.estimate.covariance;
     found.detail = ml;
     write_calibration(file_, found);
   }

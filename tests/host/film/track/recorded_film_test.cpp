@@ -134,7 +134,7 @@ TEST(RecordedFilm, ShowsPosesToAQuarterOfAMillimetre) {
   // the odometry, and the errors that poses state are those that remain then.
   Scene right = track.scene;
   right.readout_s = 0.020;
-  const PoseErrors found = support::compare(film_poses(right, track.sightings.robot).poses, frames);
+  const PoseErrors found = compare(film_poses(right, track.sightings.robot).poses, frames);
   std::cout << "with the right readout time " << found.position_m / found.stated_position_m << " and "
             << found.heading_rad / found.stated_heading_rad << " times as far off as stated\n";
   EXPECT_LE(found.position_m, 1.5 * found.stated_position_m);
