@@ -1,18 +1,38 @@
 #include "host/calibration/preparation/mounting.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 namespace astro::calibration {
 namespace {
 
-// A prior of 1 m, in units of the residuals, keeps the variance of what a drive does not show finite.
-constexpr double kWide_m = 1;
+// This information, that of a prior of 1 m in units of the residuals, keeps the variance of what a drive does not show finite.
+constexpr double kWideInformation = 1e-5;
+constexpr double kLeastWay_m = 0.1;  // root of the sum of the squared displacements
 // Residuals of pieces are a few millimetres. With hardly more pieces than unknowns they may come out smaller by chance.
 constexpr double kLeastResidual_m = 5e-4;
 
 using Row = Eigen::Matrix<double, 1, 4>;
+
+/// The covariance of the solution. The body's displacements among the coefficients are as noisy as the residuals. This noise looks
+/// like information, and it draws the solution towards zero. A circle leaves two of the four unknowns open, so that there all
+/// information is noise. Hence the noise is taken off the information, and the bias counts as an error.
+Eigen::Matrix4d covariance_of(const Eigen::Vector4d& solution, const Eigen::Matrix4d& normal, double rows,
+                              double variance_m2) {
+  const Eigen::Vector2d displacement_factors = solution.tail<2>();
+  // The residuals show the displacements' noise times the length of the two factors.
+  const double noise_m2 = rows * variance_m2 / displacement_factors.squaredNorm();
+  Eigen::Matrix4d information = normal;
+  information.diagonal().tail<2>().array() -= noise_m2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(information);
+  const Eigen::Vector4d eigenvalues = solver.eigenvalues().cwiseMax(0).array() + kWideInformation;
+  const Eigen::Matrix4d inverse =
+      solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+  const Eigen::Vector4d bias = inverse.rightCols<2>() * (noise_m2 * displacement_factors);
+  return variance_m2 * inverse + bias * bias.transpose();
+}
 
 }  // namespace
 
@@ -36,12 +56,11 @@ std::optional<Mounting> mounting_of(std::span<const RelativePose> pieces, const 
   }
   const double rows = 2 * static_cast<double>(pieces.size());
   // A robot that only spun shows the length of the lever arm, but not its direction.
-  if (rows < 6 || displaced_m2 < kWide_m * kWide_m * 0.01) return {};
-  const Eigen::LDLT<Eigen::Matrix4d> ldlt(normal + 1e-5 * Eigen::Matrix4d::Identity());
+  if (rows < 6 || displaced_m2 < kLeastWay_m * kLeastWay_m) return {};
+  const Eigen::LDLT<Eigen::Matrix4d> ldlt(normal + kWideInformation * Eigen::Matrix4d::Identity());
   const Eigen::Vector4d found = ldlt.solve(right_side);
   const double residual_m2 =
       std::max((squares_m2 - found.dot(right_side)) / (rows - 4), kLeastResidual_m * kLeastResidual_m);
-  const Eigen::Matrix4d covariance = residual_m2 * ldlt.solve(Eigen::Matrix4d::Identity());
   const double length = std::hypot(found[2], found[3]);
   if (!(length > 0.5 && length < 2)) return {};
   Mounting out;
@@ -50,7 +69,7 @@ std::optional<Mounting> mounting_of(std::span<const RelativePose> pieces, const 
   by(0, 0) = by(1, 1) = 1;
   by(2, 2) = -found[3] / (length * length);
   by(2, 3) = found[2] / (length * length);
-  out.covariance = by * covariance * by.transpose();
+  out.covariance = by * covariance_of(found, normal, rows, residual_m2) * by.transpose();
   return out;
 }
 
