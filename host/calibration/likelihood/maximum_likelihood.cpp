@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/agreement.hpp"
@@ -25,6 +26,7 @@ namespace {
 
 // A factor with a larger relative standard error counts as unobserved.
 constexpr double kOpen = 0.05;
+constexpr int kMostSplits = 5;
 
 // Rounding can turn an infinite variance into one that is not positive.
 double root(double variance) {
@@ -255,9 +257,11 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
   if (std::any_of(prepared.runs.begin(), prepared.runs.end(),
                   [](const PreparedRun& run) { return run.has_headings; }))
     require_observable(prepared, loaded, options.clock_known);
-  MlFit fit = MlFit::of(prepared, loaded, options);
-  const bool split = split_sessions(fit, prepared);
-  MlEstimate estimate = summarise(split ? MlFit::of(prepared, loaded, options) : std::move(fit));
+  std::optional<MlFit> fit = MlFit::of(prepared, loaded, options);
+  // Places that are far apart pass for noise as long as they are taken for one, and hide those that are closer.
+  for (int round = 0; round < kMostSplits && split_sessions(*fit, prepared); ++round)
+    fit.emplace(MlFit::of(prepared, loaded, options));
+  MlEstimate estimate = summarise(*std::move(fit));
   estimate.left_out = prepared.left_out;
   estimate.mended = prepared.mended;
   return estimate;

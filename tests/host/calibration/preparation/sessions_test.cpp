@@ -216,6 +216,21 @@ TEST(Sessions, AreFoundFromTheFitOfAllDrivesWhereNoDriveAloneShowsWhereTheBodySi
   expect_unharmed(moved, unmoved, "circles");
 }
 
+TEST(Sessions, AreFoundWhereAFarPlaceOfTheBodyHidesTwoNearEachOther) {
+  DriveModel model = astro_drive();
+  model.noise.K_m = 2e-5;
+  model.truth_rate_hz = 20;
+  model.headings = false;
+  std::vector<Trajectory> runs;
+  std::uint64_t seed = kSeed;
+  for (const LeverArm& place : {LeverArm{0.05, 0.03, 0.1}, {0.05, 0.045, 0.1}, {0.2, -0.1, 0.1}}) {
+    model.lever = place;
+    append(runs, squares(model, 4, 2, ++seed));
+  }
+  EXPECT_EQ(fitted_sessions(estimate_ml(runs, model.loaded)),
+            (std::vector{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2}));
+}
+
 TEST(Sessions, AreNotSplitByTheFitWhereNobodyMovedTheBody) {
   DriveModel model = astro_drive();
   for (const bool headings : {true, false})
