@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace astro::calibration {
 namespace {
 
-// The defaults count like this many sessions.
-constexpr double kPriorSessions = 4;
-// A session that does not know a ratio to this part says nothing of a drift that is far less.
+// The defaults count like this many days.
+constexpr double kPriorDays = 4;
+// A day that does not know a ratio to this part says nothing of a drift that is far less.
 constexpr double kSaysNothing = 0.01;
+constexpr double kNight_s = 6 * 3600;
 
 /// Relative changes of E_d, S and b / S by those of the factors.
 Eigen::Matrix<double, 3, kFactors> ratios_by_factors(const WheelFactors& f) {
@@ -24,42 +26,42 @@ Eigen::Matrix<double, 3, kFactors> ratios_by_factors(const WheelFactors& f) {
   return jacobian;
 }
 
-std::vector<Pool> sessions_of(std::span<const InnovationSums> drives, const FixedParameters& fixed,
-                              const PriorOfE& prior) {
-  std::vector<Pool> sessions;
-  for (const InnovationSums& drive : drives) {
-    const auto session = static_cast<std::size_t>(drive.session);
-    if (sessions.size() <= session) sessions.resize(session + 1, Pool(fixed, prior));
-    sessions[session].add(reduced(drive, fixed, 0));
+std::vector<Pool> pools_of_days(std::span<const InnovationSums> drives, std::span<const int> days,
+                                const FixedParameters& fixed, const PriorOfE& prior) {
+  std::vector<Pool> pools;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const auto day = static_cast<std::size_t>(days[i]);
+    if (pools.size() <= day) pools.resize(day + 1, Pool(fixed, prior));
+    pools[day].add(reduced(drives[i], fixed, 0));
   }
-  return sessions;
+  return pools;
 }
 
-/// One value of each session, with the variance that noise gives it.
+/// One value of each day, with the variance that noise gives it.
 struct Value {
   double value = 0, variance = 0;
 };
 
-/// The standard deviation of the difference between two days. The variance between sessions takes one step of Fisher's scoring of the
+/// The standard deviation of the difference between two days. The variance between days takes one step of Fisher's scoring of the
 /// restricted likelihood from the usual one, which gives the posterior mean where noise is nothing beside it.
-double between_two_days(const std::vector<Value>& sessions, double usual_difference) {
-  if (sessions.size() < 2) return usual_difference;
+double between_two_days(const std::vector<Value>& days, double usual_difference) {
+  if (days.size() < 2) return usual_difference;
   // A day is off the mean of all days by half the variance of the difference between two.
   const double usual = usual_difference * usual_difference / 2;
   double weights = 0, squares = 0, sum = 0;
-  for (const Value& session : sessions) {
-    const double weight = 1 / (session.variance + usual);
+  for (const Value& day : days) {
+    const double weight = 1 / (day.variance + usual);
     weights += weight;
     squares += weight * weight;
-    sum += weight * session.value;
+    sum += weight * day.value;
   }
   double slope = 0;
-  for (const Value& session : sessions) {
-    const double weight = 1 / (session.variance + usual);
-    slope += std::pow(weight * (session.value - sum / weights), 2) - weight * (1 - weight / weights);
+  for (const Value& day : days) {
+    const double weight = 1 / (day.variance + usual);
+    slope += std::pow(weight * (day.value - sum / weights), 2) - weight * (1 - weight / weights);
   }
-  const auto count = static_cast<double>(sessions.size());
-  const double curvature = squares * (count - 1) / count + kPriorSessions / (usual * usual);
+  const auto count = static_cast<double>(days.size());
+  const double curvature = squares * (count - 1) / count + kPriorDays / (usual * usual);
   return std::sqrt(2 * std::max(0.0, usual + slope / curvature));
 }
 
@@ -76,20 +78,30 @@ FactorMatrix DayDrift::covariance(const WheelFactors& f) const {
   return jacobian * variances.asDiagonal() * jacobian.transpose();
 }
 
-DayDrift drift_between_sessions(std::span<const InnovationSums> drives, const FixedParameters& fixed,
-                                const PriorOfE& prior, const WheelFactors& factors) {
-  const std::vector<Pool> sessions = sessions_of(drives, fixed, prior);
+std::vector<int> find_days(std::span<const PreparedRun> runs) {
+  std::vector<int> days(runs.size(), 0);
+  const auto started = [&](std::size_t run) { return runs[run].source->started_s; };
+  std::vector<std::size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!std::ranges::all_of(order, [&](std::size_t run) { return started(run).has_value(); })) return days;
+  std::ranges::sort(order, {}, started);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    days[order[i]] = days[order[i - 1]] + (*started(order[i]) - *started(order[i - 1]) > kNight_s ? 1 : 0);
+  return days;
+}
+
+DayDrift drift_between_days(std::span<const InnovationSums> drives, std::span<const int> days,
+                            const FixedParameters& fixed, const PriorOfE& prior,
+                            const WheelFactors& factors) {
   DayDrift drift;
-  drift.sessions = static_cast<int>(sessions.size());
-  if (drift.sessions < 2) return drift;
   const Eigen::Matrix<double, 3, kFactors> jacobian = ratios_by_factors(factors);
   std::array<std::vector<Value>, 3> values;
-  for (const Pool& session : sessions) {
-    const Eigen::Vector3d off = jacobian * session.factor_step();
-    const Eigen::Matrix3d covariance = jacobian * session.factor_covariance() * jacobian.transpose();
-    for (int i = 0; i < 3; ++i)
-      if (covariance(i, i) < kSaysNothing * kSaysNothing)
-        values[static_cast<std::size_t>(i)].push_back({off[i], covariance(i, i)});
+  for (const Pool& day : pools_of_days(drives, days, fixed, prior)) {
+    const Eigen::Vector3d off = jacobian * day.factor_step();
+    const Eigen::Matrix3d covariance = jacobian * day.factor_covariance() * jacobian.transpose();
+    if (!(covariance.diagonal().maxCoeff() < kSaysNothing * kSaysNothing)) continue;
+    ++drift.days;
+    for (int i = 0; i < 3; ++i) values[static_cast<std::size_t>(i)].push_back({off[i], covariance(i, i)});
   }
   drift.E_d = between_two_days(values[0], drift.E_d);
   drift.scale = between_two_days(values[1], drift.scale);
@@ -97,16 +109,17 @@ DayDrift drift_between_sessions(std::span<const InnovationSums> drives, const Fi
   return drift;
 }
 
-FactorMatrix covariance_on_another_day(std::span<const InnovationSums> drives, const FixedParameters& fixed,
-                                       const PriorOfE& prior, const WheelFactors& factors,
-                                       const FactorMatrix& own, const DayDrift& drift) {
+FactorMatrix covariance_on_another_day(std::span<const InnovationSums> drives, std::span<const int> days,
+                                       const FixedParameters& fixed, const PriorOfE& prior,
+                                       const WheelFactors& factors, const FactorMatrix& own,
+                                       const DayDrift& drift) {
   FactorMatrix of_a_day = drift.covariance(factors) / 2;
   if (fixed.e) of_a_day(kE, kE) = 0;
   const FactorMatrix inverse = pool_of(drives, fixed, prior).factor_covariance();
   FactorMatrix sum = own + of_a_day;
-  // The drives' factors are a mean of the sessions', each weighted by its information. The prior has none of it.
-  for (const Pool& session : sessions_of(drives, fixed, PriorOfE{prior.e, 0})) {
-    const FactorMatrix weight = inverse * session.information();
+  // The drives' factors are a mean of the days', each weighted by its information. The prior has none of it.
+  for (const Pool& day : pools_of_days(drives, days, fixed, PriorOfE{prior.e, 0})) {
+    const FactorMatrix weight = inverse * day.information();
     sum += weight * of_a_day * weight.transpose();
   }
   return sum;

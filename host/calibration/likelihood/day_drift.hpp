@@ -1,10 +1,12 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "host/calibration/likelihood/innovation.hpp"
 #include "host/calibration/likelihood/normal_equations.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
+#include "host/calibration/preparation/prepared_run.hpp"
 
 /// How much the factors of a robot change from one day to another: tyres, load, floor and temperature are others.
 namespace astro::calibration {
@@ -14,22 +16,27 @@ namespace astro::calibration {
 /// b / S change less, and 3e-4 is an assumption. No change of e was seen, and no e is known better than to 0.003.
 struct DayDrift {
   double E_d = 5e-4, scale = 3e-4, b_over_scale = 3e-4, e = 3e-3;
-  /// From the spread of how many sessions it was estimated; with fewer than two it is the default.
-  int sessions = 1;
+  /// From the spread of how many days E_d, S and b / S were estimated; with fewer than two they are the defaults. e always is.
+  int days = 0;
 
   /// Of factors that are off by errors like these.
   FactorMatrix covariance(const WheelFactors& factors) const;
 };
 
-/// From the spread between the sessions of `drives` beyond what their noise explains; the defaults count like four sessions more, because
-/// two alone say little. The noise is not widened (MlEstimate::widening), because runs of different days scatter for this very reason.
-DayDrift drift_between_sessions(std::span<const InnovationSums> drives, const FixedParameters& fixed,
-                                const PriorOfE& prior, const WheelFactors& factors);
+/// The day of each run, from 0: drives before and after a night are of two days. Sessions are no days, because a body is also mounted
+/// anew, and a folder or a clock begun, in the middle of one. All runs are of one day unless the dates of all are known.
+std::vector<int> find_days(std::span<const PreparedRun> runs);
+
+/// From the spread between the days of `drives` beyond what their noise explains; the defaults count like four days more, because
+/// two alone say little. A day that leaves one of the ratios open does not count. The noise is not widened (MlEstimate::widening), because runs of different days scatter for this very reason.
+DayDrift drift_between_days(std::span<const InnovationSums> drives, std::span<const int> days,
+                            const FixedParameters& fixed, const PriorOfE& prior, const WheelFactors& factors);
 
 /// The covariance of the factors found less those of another day: the drives' own noise, what the days of these drives differ by
 /// from the mean of all days, and what the other day does.
-FactorMatrix covariance_on_another_day(std::span<const InnovationSums> drives, const FixedParameters& fixed,
-                                       const PriorOfE& prior, const WheelFactors& factors,
-                                       const FactorMatrix& own, const DayDrift& drift);
+FactorMatrix covariance_on_another_day(std::span<const InnovationSums> drives, std::span<const int> days,
+                                       const FixedParameters& fixed, const PriorOfE& prior,
+                                       const WheelFactors& factors, const FactorMatrix& own,
+                                       const DayDrift& drift);
 
 }  // namespace astro::calibration

@@ -197,9 +197,10 @@ MlEstimate summarise(MlFit fit) {
   const Pool pool = pool_of(fit.sums(), fit.fixed(), fit.prior());
   estimate.factors = factors_of(fit.unknowns().front());
   estimate.covariance = estimate.widening * pool.factor_covariance();
-  estimate.drift = drift_between_sessions(fit.sums(), fit.fixed(), fit.prior(), estimate.factors);
+  const std::vector<int> days = find_days(fit.runs());
+  estimate.drift = drift_between_days(fit.sums(), days, fit.fixed(), fit.prior(), estimate.factors);
   estimate.covariance_another_day = covariance_on_another_day(
-      fit.sums(), fit.fixed(), fit.prior(), estimate.factors, estimate.covariance, estimate.drift);
+      fit.sums(), days, fit.fixed(), fit.prior(), estimate.factors, estimate.covariance, estimate.drift);
   estimate.se = errors_of(estimate.covariance, estimate.factors);
   require_observed(estimate.se, estimate.factors);
   for (int session = 0; session < session_count(fit.runs()); ++session)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct Trajectory {
   /// Only the poses before and after the drive were measured: `truth` has these two. They hold while the robot rests, so their
   /// times do not matter.
   bool ends_only = false;
+
+  std::optional<double> started_s = {};  // when it was driven, in seconds since 1970; nothing if not known
 };
 
 /// Pose of the tracked body in the robot frame (x forward, y left, origin midway between the wheels).

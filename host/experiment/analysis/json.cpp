@@ -223,7 +223,7 @@ nlohmann::json to_json(const Calibration& calibration) {
                    {"scale", calibration.drift.scale},
                    {"b_over_scale", calibration.drift.b_over_scale},
                    {"e", calibration.drift.e},
-                   {"sessions", calibration.drift.sessions}};
+                   {"days", calibration.drift.days}};
   // "carried" is the name of the loaded factors in the files of this format; a new name would be a new format.
   json["carried"] = to_json(calibration.loaded);
   if (calibration.squares) add_squares(json, *calibration.squares);

@@ -76,19 +76,21 @@ std::string judgement_sentence(const CrossValidation& judgement) {
 }
 
 std::string drift_sentence(const calibration::DayDrift& drift) {
-  const std::string figures =
-      fmt::format("E_d by {:.2g} %, S by {:.2g} %, b / S by {:.2g} % and e by {:.1g}", 100 * drift.E_d,
-                  100 * drift.scale, 100 * drift.b_over_scale, drift.e);
-  if (drift.sessions < 2)
+  const std::string ratios = fmt::format("E_d by {:.2g} %, S by {:.2g} % and b / S by {:.2g} %",
+                                         100 * drift.E_d, 100 * drift.scale, 100 * drift.b_over_scale);
+  if (drift.days < 2)
     return fmt::format(
-        "From one day to another real robots change by about as much as this: {}. It is part of the errors "
-        "on "
-        "another day, and is taken from other robots, because drives of one session cannot show it.",
-        figures);
+        "From one day to another real robots change by about as much as this: {}, and e by {:.1g}. It is "
+        "part "
+        "of the errors on another day, and is taken from other robots, because these drives are not known to "
+        "be of several days.",
+        ratios, drift.e);
   return fmt::format(
       "From one day to another this robot changes by about as much as this: {}. It is part of the errors on "
-      "another day, and was estimated from {} sessions and from other robots, which count like four.",
-      figures, drift.sessions);
+      "another day, and was estimated from {} days and from other robots, which count like four. For e, "
+      "{:.1g} "
+      "is taken from other robots.",
+      ratios, drift.days, drift.e);
 }
 
 std::string_view name_of(Verdict verdict) {

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "common/fixed/wrapping.hpp"
 #include "host/base/error.hpp"
+#include "host/base/utc.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/files/same_number.hpp"
@@ -57,6 +60,18 @@ class Clock {
   std::int64_t last_us_ = 0;
 };
 
+/// In seconds since 1970. Recordings of other origin have no date, but often count their times from 1970; times before the year 2000
+/// count from any other moment.
+std::optional<double> started_s(const recording::Run& run) {
+  if (const auto started = utc_time(run.info.started_at))
+    return 1e-6 * static_cast<double>(started->time_since_epoch().count());
+  constexpr double kYear2000_s = 946'684'800;
+  double latest_s = 1e-6 * static_cast<double>(run.odometry.front().time_us);
+  if (!run.truth.empty())
+    latest_s = std::max(latest_s, 1e-6 * static_cast<double>(run.truth.front().time_us));
+  return latest_s < kYear2000_s ? std::nullopt : std::optional(latest_s);
+}
+
 }  // namespace
 
 double NominalWheel::metres_per_count() const { return std::numbers::pi * diameter_m / counts_per_turn; }
@@ -93,6 +108,7 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
                 {name});
   calibration::Trajectory trajectory;
   trajectory.name = name;
+  trajectory.started_s = started_s(run);
   const NominalWheel wheel = nominal_wheel(run.info, name);
   const double metres_per_count = wheel.metres_per_count();
   trajectory.wheel_turn_m = std::numbers::pi * wheel.diameter_m;

@@ -66,8 +66,8 @@ WheelFactors on_a_day(const WheelFactors& mean, std::uint64_t seed) {
   return day;
 }
 
-std::vector<Trajectory> drives_of_a_day(const TrialSetup& setup, const WheelFactors& right,
-                                        const std::string& day, std::uint64_t seed) {
+std::vector<Trajectory> drives_of_a_day(const TrialSetup& setup, const WheelFactors& right, std::size_t day,
+                                        std::uint64_t seed) {
   simulation::study::DriveModel model;
   model.loaded = setup.loaded();
   model.actual = right;
@@ -81,9 +81,10 @@ std::vector<Trajectory> drives_of_a_day(const TrialSetup& setup, const WheelFact
                                              : simulation::study::circle_course(
                                                    setup.circle_radius_m, sense == Sense::ccw ? 12.6 : -12.6);
     runs.push_back(simulation::study::synthetic_drive(
-        course, model, day + std::to_string(run),
+        course, model, "day " + std::to_string(day) + " run " + std::to_string(run),
         simulation::study::derived_seed(seed, static_cast<std::uint64_t>(run))));
-    runs.back().session = day;
+    runs.back().session = std::to_string(day);
+    runs.back().started_s = 86400 * static_cast<double>(day);
   }
   return runs;
 }
@@ -198,8 +199,8 @@ TEST(Verdict, HoldsOnOtherDaysOfRobotsThatDrift) {
       options.clock_known = true;
       for (std::size_t day = 0; day < kDays; ++day) {
         right[day] = on_a_day(robot.setup.actual(), simulation::study::derived_seed(seed, 1000 + day));
-        drives.push_back(drives_of_a_day(robot.setup, right[day], "day " + std::to_string(day) + " run ",
-                                         simulation::study::derived_seed(seed, 100 + day)));
+        drives.push_back(
+            drives_of_a_day(robot.setup, right[day], day, simulation::study::derived_seed(seed, 100 + day)));
         found.push_back(estimate_ml(drives.back(), robot.setup.loaded(), options));
       }
       const WheelFactors mean = robot.setup.actual();

@@ -58,6 +58,17 @@ TEST(Trajectories, TravelIsThatOfANominalWheelWhateverTheRobotCarried) {
   EXPECT_DOUBLE_EQ(trajectory.wheels[1].time_s - trajectory.wheels[0].time_s, 0.1);
 }
 
+TEST(Trajectories, KnowTheDateOfARecordingAndOfTimesSince1970) {
+  recording::Run run = followed_run();
+  add_odometry(run, 5'000'000, 0, 0);
+  add_odometry(run, 5'100'000, 10, 10);
+  EXPECT_FALSE(trajectory_of(run, "x").started_s) << "the robot was switched on five seconds ago";
+  run.truth = {{1'700'000'000'000'000, 0, 0, 0}, {1'700'000'000'100'000, 0, 0, 0}};
+  EXPECT_EQ(trajectory_of(run, "x").started_s, 1.7e9);
+  run.info.started_at = "2026-03-01T12:00:00Z";
+  EXPECT_EQ(trajectory_of(run, "x").started_s, 1'772'366'400.0);
+}
+
 TEST(Trajectories, CountsMayWrap) {
   recording::Run run = followed_run();
   constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
