@@ -32,11 +32,23 @@ struct Column {
   double to_si = 1;
 };
 
-bool is_named(const tables::ColumnName& title, const EndError& error) {
+enum class Naming { other, unclear, clear };
+
+/// Whether a column is named as this error, or only as something about it that is not understood. A heading would be dropped
+/// without a word then, because it may be left out; so each angle counts as one that may be meant.
+Naming naming(const tables::ColumnName& title, const EndError& error) {
   const std::vector<std::string>& words = title.words;
-  if (words.size() == 1) return words[0] == error.name;
-  return words.size() == 2 && (words[0] == error.words[0] || words[0] == error.words[1]) &&
-         (words[1] == "err" || words[1] == "error");
+  const bool is_short = !words.empty() && words[0] == error.name;
+  const bool is_long = words.size() > 1 && (words[0] == error.words[0] || words[0] == error.words[1]) &&
+                       (words[1] == "err" || words[1] == "error");
+  if (is_short || is_long)
+    return words.size() == (is_short ? 1 : 2) && title.unit && title.unit->quantity == error.quantity
+               ? Naming::clear
+               : Naming::unclear;
+  const bool is_angle = error.quantity == tables::Quantity::angle &&
+                        ((title.unit && title.unit->quantity == tables::Quantity::angle) ||
+                         title.has({"etheta", "theta", "heading", "yaw"}));
+  return is_angle ? Naming::unclear : Naming::other;
 }
 
 class EndPoses {
@@ -82,25 +94,23 @@ class EndPoses {
 
   std::optional<Column> find(const EndError& error) const {
     std::optional<Column> found;
-    std::string unitless;
+    std::string unclear;
     for (std::size_t i = 0; i < table_.names().size(); ++i) {
       const std::string title = tables::cut_cell(table_.names()[i]);
       const tables::ColumnName name = tables::column_name(title);
-      if (!is_named(name, error)) continue;
-      if (!name.unit || name.unit->quantity != error.quantity) {
-        unitless = title;
-        continue;
-      }
+      const Naming how = naming(name, error);
+      if (how == Naming::unclear) unclear = title;
+      if (how != Naming::clear) continue;
       if (found)
         refuse_header("columns " + found->title + " and " + title + " both give " + std::string(error.name) +
                           ": keep one of them",
                       EndPoseTableProblem::two_columns, {found->title, title});
       found = Column{i, title, name.unit->to_si};
     }
-    if (!found && !unitless.empty())
+    if (!found && !unclear.empty())
       refuse_header(
-          "column " + unitless + " does not say its unit, as " + std::string(error.spellings) + " does",
-          EndPoseTableProblem::no_unit, {unitless});
+          "column " + unclear + " is not named by error and unit, as " + std::string(error.spellings) + " is",
+          EndPoseTableProblem::no_unit, {unclear});
     return found;
   }
 

@@ -17,10 +17,10 @@
 ///   etheta_rad | etheta_deg | heading_err_deg ...      error of the heading; no column or an empty cell: not measured
 ///   direction                                          cw or ccw, the same in all rows
 ///
-/// Other columns (run, euclid_mm, ...) are ignored.
+/// Other columns (run, euclid_mm, ...) are ignored, but where no column gives the heading, none may be about an angle.
 ///
 /// Every message begins with `name`, the name of the file. Throws astro::Error with the line and the column for
-///   a column that is missing, doubled, or without a known unit; no header; no data rows, or more than 100 000
+///   a column that is missing, doubled, or whose name is not understood; no header; no data rows, or more than 100 000
 ///   a row with more cells than names (tables::TableProblem)
 ///   a cell that is empty, no finite number, or not a direction
 /// and what tables::Table throws.

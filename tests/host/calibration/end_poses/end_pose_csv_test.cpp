@@ -75,10 +75,17 @@ TEST(EndPoseCsv, AFileWithoutRunsIsRefused) {
 
 TEST(EndPoseCsv, AColumnWithoutAUnitIsRefused) {
   EXPECT_THAT(told("ex,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex"));
-  EXPECT_THAT(told("ex_furlong,ey_mm\n1,2\n"), Tells(Problem::no_column, "cw.csv", "1", "ex"));
+  EXPECT_THAT(told("ex_furlong,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex_furlong"));
   EXPECT_THAT(told("ex_mm,ey [furlong]\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ey [furlong]"));
   EXPECT_THAT(told("ex_rad,ey_mm\n1,2\n"), Tells(Problem::no_unit, "cw.csv", "1", "ex_rad"));
   EXPECT_THAT(told("ex_mm,ey_mm,etheta\n1,2,3\n"), Tells(Problem::no_unit, "cw.csv", "1", "etheta"));
+}
+
+TEST(EndPoseCsv, AHeadingWithAnUnusualNameIsNotDropped) {
+  for (const std::string title : {"etheta_grad", "etheta_mrad", "etheta_deg_meas", "etheta in deg",
+                                  "heading_err_deg_meas", "theta_deg", "e_theta", "yaw_err_deg", "dphi_rad"})
+    EXPECT_THAT(told("ex_mm,ey_mm," + title + "\n1,2,3\n"), Tells(Problem::no_unit, "cw.csv", "1", title));
+  EXPECT_EQ(poses_in("ex_mm,ey_mm,etheta_rad,etheta_rad_printed\n1,2,3,4\n")[0].theta_rad, 3);
 }
 
 TEST(EndPoseCsv, AMissingOrDoubledColumnIsRefused) {

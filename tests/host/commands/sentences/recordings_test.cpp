@@ -169,7 +169,7 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithATableOfEndPoses) {
   write("empty.csv", "");
   expect({
       {"no unit", ends("unitless.csv"),
-       "unitless.csv, line 1: column ex does not say its unit, as ex_mm or ex_cm or ex_m does"},
+       "unitless.csv, line 1: column ex is not named by error and unit, as ex_mm or ex_cm or ex_m is"},
       {"an empty cell", ends("gap.csv"),
        "gap.csv, line 2: column ey_mm: the cell is empty: write the number or leave the run out"},
       {"a doubled column", ends("double.csv"),
