@@ -73,37 +73,36 @@ struct SetBacks {
   std::optional<std::size_t> begins_again;                  // instead: the first sample of another recording
 };
 
-/// A fall counts if the samples about it are as many before as after it as a clock gives in that time.
+/// A fall counts if the samples about it are as many before as after it as a clock gives in that time. Where nearly all samples
+/// so far exist again after it, another recording follows.
 SetBacks set_backs_of(const Times& times) {
   constexpr double kShortestPeriods = 3, kMost = 0.8, kNearlyAll = 0.9;
   SetBacks found;
   if (std::ranges::is_sorted(times)) return found;
   const double period_ns = usual_step_ns(times);
   if (!(period_ns > 0)) return found;
-  std::size_t begin = 0;  // of the samples since the fall before
   for (std::size_t i = 1; i < times.size(); ++i) {
     const std::int64_t fall_ns = times[i - 1] - times[i];
     if (static_cast<double>(fall_ns) < kShortestPeriods * period_ns) continue;
     const Repeated repeated = repeated_at(times, i);
     const double wanted = kMost * static_cast<double>(fall_ns) / period_ns - 1;
     if (repeated.before < wanted || repeated.after < std::min<double>(wanted, kFewest)) continue;
-    if (repeated.before > kNearlyAll * static_cast<double>(i - begin)) {
+    if (repeated.before > kNearlyAll * static_cast<double>(i)) {
       found.begins_again = i;
       return found;
     }
     if (repeated.after < wanted) continue;
     found.steps.emplace_back(i, fall_ns + std::llround(period_ns));
-    begin = i;
   }
   return found;
 }
 
-void set_on(Times& times, const std::string& what, std::vector<Remark>& remarks) {
+bool set_on(Times& times, const std::string& what, std::vector<Remark>& remarks) {
   constexpr std::size_t kMostSteps = 8;
   const auto [steps, begins_again] = set_backs_of(times);
   std::int64_t late_ns = 0;
   for (const auto& [at, by_ns] : steps) late_ns += std::min(by_ns, kMost_ns - late_ns);
-  if (begins_again || steps.size() > kMostSteps || late_ns == kMost_ns) return;
+  if (begins_again || steps.size() > kMostSteps || late_ns == kMost_ns) return false;
   late_ns = 0;
   std::size_t next = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -119,6 +118,7 @@ void set_on(Times& times, const std::string& what, std::vector<Remark>& remarks)
     }
     times[i] += late_ns;
   }
+  return !steps.empty();
 }
 
 /// Whether many samples come right after the one before, and some long after it.
@@ -182,10 +182,11 @@ void even_out(Times& times, const std::string& what, std::vector<Remark>& remark
 
 }  // namespace
 
-void mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks) {
-  if (!can_be_mended(times_ns)) return;
-  set_on(times_ns, what, remarks);
+bool mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks) {
+  if (!can_be_mended(times_ns)) return false;
+  const bool stepped = set_on(times_ns, what, remarks);
   even_out(times_ns, what, remarks);
+  return stepped;
 }
 
 std::optional<std::size_t> second_recording(const std::vector<std::int64_t>& times_ns) {

@@ -15,7 +15,8 @@ namespace astro {
 /// after how many seconds of the stream, for clock_set_often how many times, for bursts_evened the longest delay in seconds.
 enum class TimesRemark { clock_set_back, clock_set_on, clock_set_often, bursts_evened };
 
-/// Mends `times_ns`, and adds a remark for each thing that was done. `what` names the stream: "the wheels".
+/// Mends `times_ns`, and adds a remark for each thing that was done. `what` names the stream: "the wheels". Returns whether the
+/// clock had been set back.
 ///   A clock that was set back in between, at most eight times: the samples after the fall are as many as those before it in
 ///   the time that then exists twice. What follows is set on by the fall and a period, as if no sample were missing. Samples
 ///   that merely came out of order are left so, and so are two recordings of which one follows the other.
@@ -23,7 +24,7 @@ enum class TimesRemark { clock_set_back, clock_set_on, clock_set_often, bursts_e
 ///   by less than the least delay near them; so their number gives their times, but for a common delay. Without bursts
 ///   nothing is changed.
 /// Falls of up to three periods cannot be told from samples out of order.
-void mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks);
+bool mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks);
 
 /// The first sample of a second recording that follows a first one: nearly all times before it exist again after it.
 std::optional<std::size_t> second_recording(const std::vector<std::int64_t>& times_ns);

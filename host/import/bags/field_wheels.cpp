@@ -151,7 +151,7 @@ class FieldWheels {
     }
     topic.readings = {};
     if (topic.stamped) topic.stamps.remark("messages of " + name, track_.remarks);
-    order_by_time(values, arrivals_ns, "messages of " + name, track_.remarks);
+    order_by_time(values, arrivals_ns, path_.string(), "messages of " + name, track_.remarks);
     return values;
   }
 

@@ -145,7 +145,7 @@ class JointWheels {
     track.unit = WheelUnit::radians;
     const bool integrates = positions_[pair].empty();
     track.samples = std::move(integrates ? velocities_[pair] : positions_[pair]);
-    order_by_time(track.samples, arrivals_ns_[integrates ? 0 : 1], topic_, track.remarks);
+    order_by_time(track.samples, arrivals_ns_[integrates ? 0 : 1], path_.string(), topic_, track.remarks);
     if (pair > 0) track.remarks.clear();
     if (integrates && !track.samples.empty()) {
       track.samples =

@@ -214,9 +214,8 @@ PoseTopic poses_in_bag(const fs::path& path, const PoseSelection& selection) {
         {std::to_string(report.unreadable) + " messages do not fit their type and were left out"});
   const std::string what = "poses of " + stream.topic;
   if (stamped) stream.stamps.remark(what, out.remarks);
-  const std::size_t before = out.remarks.size();
-  order_by_time(out.poses, arrivals_ns, what, out.remarks);
-  offset.remark(out.remarks.size() == before, out.remarks);
+  const bool stepped = order_by_time(out.poses, arrivals_ns, path.string(), what, out.remarks);
+  offset.remark(!stepped, out.remarks);
   return out;
 }
 

@@ -11,7 +11,7 @@
 namespace astro::importing {
 
 /// What is odd about the stamps of messages. Values: for `missing` the messages and how many of them, for the
-/// others how many seconds; for `begin_again` the messages and after how many seconds.
+/// others how many seconds; for `begin_again` the file, the messages and after how many seconds.
 enum class StampProblem { missing, before_recorder, after_recorder, delays_differ, begin_again };
 
 /// Decides whether the stamps of messages are their times. A publisher that has no clock yet stamps with

@@ -47,7 +47,7 @@ struct StampStep {
 };
 
 std::vector<StampStep> steps_of(Times stamps_ns, Times arrivals_ns) {
-  constexpr std::int64_t kSmallest_ns = 60'000'000, kAlike_ns = 30'000'000;
+  constexpr std::int64_t kSmallest_ns = 60'000'000, kAlike_ns = 30'000'000, kShortestPause_ns = 500'000'000;
   constexpr std::size_t kMostLeaps =
       1000;  // a clock has no more; it also bounds the time that a hostile bag takes
   const std::int64_t usual_ns = usual_period_ns(stamps_ns),
@@ -64,7 +64,9 @@ std::vector<StampStep> steps_of(Times stamps_ns, Times arrivals_ns) {
     // In floating point, because a clock may be set from 1970 to today.
     const double off_ns =
         static_cast<double>(*before_ns) - static_cast<double>(*after_ns) - static_cast<double>(by_ns);
-    if (std::abs(off_ns) < static_cast<double>(std::max(kAlike_ns, std::abs(by_ns) / 5)))
+    // A second recording that was started within seconds is no step back.
+    const std::int64_t most_ns = by_ns < 0 ? kShortestPause_ns : std::numeric_limits<std::int64_t>::max();
+    if (std::abs(off_ns) < static_cast<double>(std::max(kAlike_ns, std::min(std::abs(by_ns) / 5, most_ns))))
       steps.push_back({i, by_ns});
   }
   return steps;
@@ -95,10 +97,10 @@ Remark why_stepped(const std::string& what, std::int64_t by_ns, std::int64_t aft
 
 }  // namespace
 
-void take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const std::int64_t> arrivals_ns,
+bool take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const std::int64_t> arrivals_ns,
                            const std::string& what, std::vector<Remark>& remarks) {
   constexpr std::size_t kMostSteps = 8;
-  if (!can_be_compared(stamps_ns, arrivals_ns)) return;
+  if (!can_be_compared(stamps_ns, arrivals_ns)) return false;
   const std::vector<StampStep> steps = steps_of(stamps_ns, arrivals_ns);
   if (steps.size() > kMostSteps) {
     const std::string times = std::to_string(steps.size());
@@ -109,11 +111,11 @@ void take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const
          TimesRemark::clock_set_often,
          {what, times}});
     stamps_ns.assign(arrivals_ns.begin(), arrivals_ns.end());
-    return;
+    return true;
   }
   std::int64_t late_ns = 0;
   for (const StampStep& step : steps) {
-    if (std::abs(late_ns) > kMost_ns) return;
+    if (std::abs(late_ns) > kMost_ns) return false;
     late_ns += step.by_ns;
   }
   late_ns = 0;
@@ -123,15 +125,17 @@ void take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const
     const std::size_t end = k + 1 < steps.size() ? steps[k + 1].at : stamps_ns.size();
     for (std::size_t i = steps[k].at; i < end; ++i) stamps_ns[i] -= late_ns;
   }
+  return !steps.empty();
 }
 
-void refuse_second_recording(const std::vector<std::int64_t>& times_ns, const std::string& what) {
+void refuse_second_recording(const std::vector<std::int64_t>& times_ns, const std::string& file,
+                             const std::string& what) {
   const auto second = second_recording(times_ns);
   if (!second) return;
   const std::string after = fmt::format("{:.1f}", seconds_of(times_ns[*second - 1] - times_ns.front()));
-  throw Error(fmt::format("{}: after {} s their stamps begin again: two recordings in one; cut it there",
-                          what, after),
-              StampProblem::begin_again, {what, after});
+  throw Error(fmt::format("{}: {}: after {} s their stamps begin again: two recordings in one; cut it there",
+                          file, what, after),
+              StampProblem::begin_again, {file, what, after});
 }
 
 }  // namespace astro::importing

@@ -11,30 +11,33 @@
 
 namespace astro::importing {
 
-/// Takes back the steps of the clock that stamped messages, with a remark for each: where it was set, two stamps are further
-/// apart or nearer than all others, and from there on the messages reach the recorder by as much sooner or later after their
-/// stamps. Messages that are lost or late are none. A clock that was set more than eight times is not used: the messages then have the
-/// times of their arrival.
+/// Takes back the steps of the clock that stamped messages, with a remark for each, and returns whether there were any. Where it
+/// was set, two stamps are further apart or nearer than all others, and from there on the messages reach the recorder by as
+/// much sooner or later after their stamps. Messages that are lost or late are none. A clock that was set more than eight times
+/// is not used: the messages then have the times of their arrival.
 ///
 /// `arrivals_ns`: when each message reached the recorder, by the recorder's clock.
 /// Steps below 0.06 s are not told from delays.
-void take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const std::int64_t> arrivals_ns,
+bool take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const std::int64_t> arrivals_ns,
                            const std::string& what, std::vector<Remark>& remarks);
 
-/// Throws astro::Error if the times of messages, in the order in which they came, are those of two recordings.
-void refuse_second_recording(const std::vector<std::int64_t>& times_ns, const std::string& what);
+/// Throws astro::Error if the times of messages, in the order in which they came, are those of two recordings. `file` holds
+/// them.
+void refuse_second_recording(const std::vector<std::int64_t>& times_ns, const std::string& file,
+                             const std::string& what);
 
 /// Mends the times of samples that are in the order in which they came (sample_times.hpp), sorts them by their time_ns, and
-/// drops all but the first of those with equal times, with a remark for each. `what` names the samples, for example "poses of
-/// /tracker". `arrivals_ns` are those of the samples if their times are stamps, otherwise empty. Throws astro::Error of two
-/// recordings in one, which sorting would mix.
+/// drops all but the first of those with equal times, with a remark for each. Returns whether a step of their clock was taken
+/// back. `what` names the samples, for example "poses of /tracker", and `file` where they are. `arrivals_ns` are those of the
+/// samples if their times are stamps, otherwise empty. Throws astro::Error of two recordings in one, which sorting would mix;
+/// a clock that was set back soon after the beginning looks like them, unless the arrivals show it.
 template <class Sample>
-void order_by_time(std::vector<Sample>& samples, std::span<const std::int64_t> arrivals_ns,
-                   const std::string& what, std::vector<Remark>& remarks) {
+bool order_by_time(std::vector<Sample>& samples, std::span<const std::int64_t> arrivals_ns,
+                   const std::string& file, const std::string& what, std::vector<Remark>& remarks) {
   std::vector<std::int64_t> times_ns = times_of(samples);
-  refuse_second_recording(times_ns, what);
-  take_clock_steps_back(times_ns, arrivals_ns, what, remarks);
-  mend_times(times_ns, what, remarks);
+  bool stepped = take_clock_steps_back(times_ns, arrivals_ns, what, remarks);
+  refuse_second_recording(times_ns, file, what);
+  stepped = mend_times(times_ns, what, remarks) || stepped;
   set_times(samples, times_ns);
   if (!std::ranges::is_sorted(samples, {}, &Sample::time_ns)) {
     std::stable_sort(samples.begin(), samples.end(),
@@ -47,6 +50,7 @@ void order_by_time(std::vector<Sample>& samples, std::span<const std::int64_t> a
     remarks.push_back(
         {what + ": " + std::to_string(samples.end() - repeated) + " repeat a time and were left out"});
   samples.erase(repeated, samples.end());
+  return stepped;
 }
 
 }  // namespace astro::importing

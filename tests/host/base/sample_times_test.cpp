@@ -53,6 +53,16 @@ TEST(SampleTimes, OfAClockThatIsSetBackGoOn) {
     EXPECT_NEAR(double(times[i]), double(right[i]), 0.01 * kPeriod_ns);  // the period is found from the data
 }
 
+TEST(SampleTimes, OfAClockThatIsSetBackTwiceWithinASecondGoOn) {
+  Times times = steady(1000);
+  const Times right = times;
+  for (std::size_t i = 400; i < 1000; ++i) times[i] -= 500'000'000;
+  for (std::size_t i = 445; i < 1000; ++i) times[i] -= 500'000'000;
+  EXPECT_EQ(mend(times).size(), 2U);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    EXPECT_NEAR(double(times[i]), double(right[i]), 0.01 * kPeriod_ns);  // the period is found from the data
+}
+
 TEST(SampleTimes, OfTwoRecordingsInOneAreNotJoined) {
   for (const auto& [first, second] :
        {std::pair<std::size_t, std::size_t>{1000, 1000}, {400, 1000}, {1000, 400}}) {

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 using ros2::StampedPose;
 using support::Tells;
 using support::ThrowsTelling;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
@@ -128,6 +129,12 @@ TEST_F(PoseTopics, TimesAreStampsOrThoseOfTheRecorder) {
   ASSERT_EQ(other.remarks.size(), 2U);
   EXPECT_THAT(other.remarks[0], Tells(StampProblem::before_recorder, "8996"));
   EXPECT_THAT(other.remarks[1], Tells(StampProblem::delays_differ, "3"));
+  const PoseTopic late = poses_in_bag(bag({{"/mocap", pose(2 * kSecond, "a", "b", 1)},
+                                           {"/mocap", pose(3 * kSecond, "a", "b", 2)},
+                                           {"/mocap", pose(1 * kSecond, "a", "b", 3)}},
+                                          2 * kSecond));
+  EXPECT_THAT(late.remarks, Contains(Tells(StampProblem::delays_differ, "3")))
+      << "beside the remark that they were sorted";
 }
 
 TEST_F(PoseTopics, StampsAheadOfTheRecorderAreSaidToBeAfterIt) {

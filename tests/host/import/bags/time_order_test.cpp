@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -109,12 +110,70 @@ TEST(StampSteps, NeedArrivalsThatTellMoreThanTheStamps) {
   }
 }
 
+/// What order_by_time makes of these messages.
+struct Ordered {
+  std::vector<WheelSample> samples;
+  std::vector<Remark> remarks;
+  bool stepped = false;
+
+  explicit Ordered(const SentMessages& sent) {
+    for (const std::int64_t stamp_ns : sent.stamps_ns) samples.push_back({stamp_ns, 0, 0});
+    stepped = order_by_time(samples, sent.arrivals_ns, "drive.bag", "/wheels", remarks);
+  }
+};
+
+TEST(StampSteps, SoonAfterTheBeginningAreNoSecondRecordingIfTheArrivalsShowIt) {
+  for (const auto& [at_s, by_s] : {std::pair{4.4, -4.0}, {30.0, -29.0}}) {
+    const SentMessages right(0.02);
+    SentMessages sent = right;
+    sent.step(at_s, by_s);
+    const Ordered mended(sent);
+    EXPECT_TRUE(mended.stepped);
+    EXPECT_THAT(mended.remarks, ElementsAre(Tells(TimesRemark::clock_set_back, "/wheels",
+                                                  fmt::format("{:.2f}", -by_s), testing::_)));
+    ASSERT_EQ(mended.samples.size(), right.stamps_ns.size());
+    for (std::size_t i = 0; i < right.stamps_ns.size(); ++i)
+      EXPECT_NEAR(double(mended.samples[i].time_ns - right.stamps_ns[i]), 0, 1e6);
+    sent.arrivals_ns.clear();
+    EXPECT_THAT([&] { (void)Ordered(sent); },
+                support::ThrowsTelling(StampProblem::begin_again, "drive.bag", "/wheels", testing::_));
+  }
+}
+
+TEST(StampSteps, ThatFollowOneAnotherAreEachTakenBack) {
+  const SentMessages right(0.02);
+  SentMessages sent = right;
+  sent.step(10, -0.5);
+  sent.step(10.45, -0.5);
+  const Ordered mended(sent);
+  EXPECT_EQ(mended.remarks.size(), 2U);
+  for (std::size_t i = 0; i < right.stamps_ns.size(); ++i)
+    EXPECT_NEAR(double(mended.samples[i].time_ns - right.stamps_ns[i]), 0, 1e6);
+}
+
+TEST(StampSteps, AreNotReportedOfMessagesThatCameLate) {
+  SentMessages sent(0.02);
+  std::rotate(sent.stamps_ns.begin() + 500, sent.stamps_ns.begin() + 501, sent.stamps_ns.begin() + 650);
+  const Ordered sorted(sent);
+  EXPECT_FALSE(sorted.stepped);
+  EXPECT_EQ(sorted.remarks.size(), 1U) << "only that they were sorted";
+}
+
+TEST(StampSteps, ARecordingThatWasStartedAgainSecondsLaterIsRefused) {
+  SentMessages sent(0.02);
+  sent.step(30, -30);
+  for (std::size_t i = sent.arrivals_ns.size() / 2; i < sent.arrivals_ns.size(); ++i)
+    sent.arrivals_ns[i] += 3'000'000'000;
+  EXPECT_THAT([&] { (void)Ordered(sent); },
+              support::ThrowsTelling(StampProblem::begin_again, "drive.bag", "/wheels", "30.0"));
+}
+
 TEST(StampSteps, TwoRecordingsInOneAreRefused) {
   std::vector<WheelSample> samples;
   for (int i = 0; i < 2000; ++i) samples.push_back({20'000'000LL * (i % 1000), 0, 0});
   std::vector<Remark> remarks;
-  EXPECT_THAT([&] { order_by_time(samples, {}, "/wheels", remarks); },
-              support::ThrowsTelling(StampProblem::begin_again, "/wheels", "20.0"));
+  EXPECT_THAT([&] { order_by_time(samples, {}, "drive.bag", "/wheels", remarks); },
+              support::ThrowsTelling(StampProblem::begin_again, "drive.bag", "/wheels", "20.0"));
 }
 
 }  // namespace
