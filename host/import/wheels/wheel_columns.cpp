@@ -144,27 +144,34 @@ bool are_whole_numbers(tables::Table& table, const std::vector<std::size_t>& col
   return whole && any;
 }
 
-/// Whether these columns, after many different values, end at the value with which they began, as travel per row of a robot that
-/// stands at both ends does, and counters do not.
-bool end_as_they_begin(tables::Table& table, const std::vector<std::size_t>& columns) {
-  bool same = true;
+/// Whether these columns end at the value with which they began, as travel per row of a robot that stands at both ends does, and
+/// go up and down by turns, as the differences of a counter do. A distance that counts on and comes back to where it began
+/// turns only where the robot does.
+bool are_travel_per_row(tables::Table& table, const std::vector<std::size_t>& columns) {
+  constexpr double kSame = 0.1;   // of the range: a robot may begin to move in the first row
+  constexpr double kTurns = 0.1;  // of the steps: 0.7 where counts are rounded, below 0.01 of distances
+  bool all = true;
   for (const std::size_t column : columns) {
     std::optional<double> first, last;
-    double least = HUGE_VAL, most = -HUGE_VAL;
+    double least = HUGE_VAL, most = -HUGE_VAL, step = 0, steps = 0, turns = 0;
     table.rewind();
     while (table.next()) {
       const auto value = tables::cell_number(table.cell(column), table.style());
       if (!value) continue;
       if (!first) first = value;
+      if (last && *value != *last) {
+        turns += step * (*value - *last) < 0 ? 1 : 0;
+        step = *value > *last ? 1 : -1;
+        ++steps;
+      }
       last = value;
       least = std::min(least, *value);
       most = std::max(most, *value);
     }
-    constexpr double kSame = 0.1;  // of the range: a robot may begin to move in the first row
-    same = same && first && std::abs(*last - *first) <= kSame * (most - least);
+    all = all && first && std::abs(*last - *first) <= kSame * (most - least) && turns >= kTurns * steps;
   }
   table.rewind();
-  return same;
+  return all;
 }
 
 [[noreturn]] void refuse(const tables::Table& table, const std::vector<std::string>& names,
@@ -221,13 +228,13 @@ WheelColumns wheel_columns(const std::vector<std::string>& names, tables::Table&
   std::vector<std::size_t> columns = out.left;
   columns.insert(columns.end(), out.right.begin(), out.right.end());
   out.per_interval =
-      !out.speeds && (kind.per_interval || (kind.perhaps_per_interval && end_as_they_begin(table, columns)));
+      !out.speeds && (kind.per_interval || (kind.perhaps_per_interval && are_travel_per_row(table, columns)));
   if (out.per_interval && !kind.per_interval)
-    out.remarks.push_back(
-        {fmt::format("{} ends as it begins, and is taken as the travel since the row before",
-                     tables::shown_cell(names[out.left.front()])),
-         WheelRemark::per_interval_assumed,
-         {names[out.left.front()]}});
+    out.remarks.push_back({fmt::format("{} ends as it begins and goes up and down by turns: it is taken as "
+                                       "the travel since the row before",
+                                       tables::shown_cell(names[out.left.front()])),
+                           WheelRemark::per_interval_assumed,
+                           {names[out.left.front()]}});
   out.unit = wheel_unit(kind.quantity);
   out.scale = kind.to_si;
   out.unit_text = kind.unit_text;

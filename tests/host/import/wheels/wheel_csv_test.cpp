@@ -272,6 +272,25 @@ TEST(WheelCsv, DifferencesThatAreNamedWithALetterAreTravelPerIntervalIfTheyEndAs
               (WheelSample{2'000'000'000, 9, 8}));
 }
 
+TEST(WheelCsv, ADistanceThatComesBackToItsStartIsNoTravelPerInterval) {
+  for (const bool per_row : {false, true}) {
+    std::string text = "time_s,d_left_m,d_right_m\n";
+    double left = 0, right = 0;
+    for (int i = 0; i <= 400; ++i) {
+      const double forth = std::clamp((180 - std::abs(i - 200)) / 180.0, 0.0, 1.0);
+      const auto counts = [&](double way_m) { return std::round(way_m * forth / 3e-4) * 3e-4; };
+      const double l = counts(2), r = counts(2.1);
+      text +=
+          fmt::format("{:.2f},{:.6f},{:.6f}\n", 0.02 * i, per_row ? l - left : l, per_row ? r - right : r);
+      left = l;
+      right = r;
+    }
+    const WheelTrack track = wheels(text);
+    EXPECT_NEAR(track.samples[200].left, 2, 0.01) << per_row;  // of two metres forth and back
+    EXPECT_EQ(track.remarks.empty(), !per_row);
+  }
+}
+
 TEST(WheelCsv, AUnitMayStandInFrontOfTheSide) {
   const WheelTrack track = wheels("t_s,rpm_left,rpm_right\n0,60,60\n1,60,60\n");
   EXPECT_NEAR(track.samples.back().left, 2 * std::numbers::pi, 1e-12);
