@@ -28,9 +28,14 @@ std::vector<std::string> words_of(std::string_view name) {
 }
 
 std::optional<SidedWord> sided_word(const std::string& word) {
-  for (const auto& [text, side] : {std::pair{"lhs", Side::left}, std::pair{"port", Side::left},
-                                   std::pair{"rhs", Side::right}, std::pair{"starboard", Side::right}})
-    if (word == text) return SidedWord{side, ""};
+  static const std::set<std::string_view> kLeft{"lhs",       "port",     "links",   "linke",
+                                                "linkes",    "linker",   "gauche",  "izquierda",
+                                                "izquierdo", "sinistra", "sinistro"};
+  static const std::set<std::string_view> kRight{"rhs",     "starboard", "rechts", "rechte",
+                                                 "rechtes", "rechter",   "droite", "droit",
+                                                 "derecha", "derecho",   "destra", "destro"};
+  if (kLeft.contains(word)) return SidedWord{Side::left, ""};
+  if (kRight.contains(word)) return SidedWord{Side::right, ""};
   const std::size_t left = word.find("left"), right = word.find("right");
   if ((left == word.npos) != (right == word.npos))
     return left != word.npos ? SidedWord{Side::left, word.substr(0, left) + word.substr(left + 4)}
@@ -39,15 +44,24 @@ std::optional<SidedWord> sided_word(const std::string& word) {
        {"",      "w",     "v",     "m",      "e",   "d",     "q",     "enc", "encoder",
         "tick",  "ticks", "count", "counts", "pos", "wheel", "motor", "phi", "th",
         "theta", "omega", "f",     "r",      "b",   "front", "rear",  "back"}) {
-    if (word == std::string(front) + "l") return SidedWord{Side::left, std::string(front)};
-    if (word == std::string(front) + "r") return SidedWord{Side::right, std::string(front)};
+    if (word == std::string(front) + "l") return SidedWord{Side::left, std::string(front), true};
+    if (word == std::string(front) + "r") return SidedWord{Side::right, std::string(front), true};
   }
   for (const std::string_view end : {"wheel", "wheels", "whl", "enc", "encoder", "tick", "ticks", "motor",
                                      "w", "f", "r", "b", "front", "rear"}) {
-    if (word == "l" + std::string(end)) return SidedWord{Side::left, std::string(end)};
-    if (word == "r" + std::string(end)) return SidedWord{Side::right, std::string(end)};
+    if (word == "l" + std::string(end)) return SidedWord{Side::left, std::string(end), true};
+    if (word == "r" + std::string(end)) return SidedWord{Side::right, std::string(end), true};
   }
   return std::nullopt;
+}
+
+std::vector<std::optional<SidedWord>> sided_words(std::span<const std::string> words) {
+  std::vector<std::optional<SidedWord>> sided;
+  for (const std::string& word : words) sided.push_back(sided_word(word));
+  if (std::ranges::any_of(sided, [](const auto& one) { return one && !one->is_letter; }))
+    for (auto& one : sided)
+      if (one && one->is_letter) one.reset();
+  return sided;
 }
 
 bool is_of_no_use(std::span<const std::string> words) {
@@ -67,13 +81,15 @@ bool speaks_of_wheels(std::string_view words) {
 
 SidedName sided_name(std::string_view name) {
   SidedName out;
-  for (const std::string& word : words_of(name)) {
-    auto sided = sided_word(word);
+  const std::vector<std::string> words = words_of(name);
+  const std::vector<std::optional<SidedWord>> all = sided_words(words);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    std::optional<SidedWord> sided = all[i];
     // Which axle of "fl" and "rl" is driven, the names of joints do not show.
     if (sided && (sided->rest == "f" || sided->rest == "r" || sided->rest == "b")) sided.reset();
     if (sided && out.side) return {};
     if (sided) out.side = sided->side;
-    out.stem += (sided ? "<>" + sided->rest : word) + " ";
+    out.stem += (sided ? "<>" + sided->rest : words[i]) + " ";
   }
   return out;
 }

@@ -30,12 +30,17 @@ struct SidedName {
 SidedName sided_name(std::string_view name);
 
 /// The side that a word names, and what else it says: left and "" for "left" and "l", "wheel" for "leftwheel" and "lwheel", "f"
-/// for "fl". In "rr" and "rl" of rear wheels the last letter counts. Nothing if it names none.
+/// for "fl". In "rr" and "rl" of rear wheels the last letter counts. Nothing if it names none. The words are English, or those of
+/// the languages in which tables have columns of times (host/formats/tables/time_column.hpp).
 struct SidedWord {
   Side side;
   std::string rest;
+  bool is_letter = false;  // one that counts only where no word of the name is spelled out: "mr_left" is left
 };
 std::optional<SidedWord> sided_word(const std::string& word);
+
+/// What each word of a name says of the side, with the letters left out where they do not count.
+std::vector<std::optional<SidedWord>> sided_words(std::span<const std::string> words);
 
 /// Whether the words say that this is no travel or speed that was measured: commands, limits, currents, temperatures.
 bool is_of_no_use(std::span<const std::string> words);

@@ -22,8 +22,7 @@ using tables::Quantity;
 /// The side that a name shows; nothing if it shows none, or both.
 std::optional<Side> side_of(const ColumnName& name) {
   std::optional<Side> side;
-  for (const std::string& word : name.words) {
-    const auto one = sided_word(word);
+  for (const auto& one : sided_words(name.words)) {
     if (one && side && one->side != side) return std::nullopt;
     if (one) side = one->side;
   }

@@ -24,10 +24,11 @@ struct WheelColumns {
 
 /// The columns with these names, which are of `table` or were stated about it.
 ///
-/// Sides       left, right, l, r; words with them (leftWheel, wl, encR); FL, FR, RL, RR and front and rear for four wheels
+/// Sides       left, right, l, r; words with them (leftWheel, wl, encR); FL, FR, RL, RR and front and rear for four wheels;
+///             links and rechts and the words of other languages (joint_names.hpp)
 /// Quantities  by the unit (host/formats/tables/units.hpp): counts, angles, travel, or speeds, if there is none of these;
-///             "delta", "per_interval": travel per interval, and "d" where it ends as it begins. Encoders without a unit count; other names without one are
-///             counts if all cells are whole numbers.
+///             "delta", "per_interval": travel per interval, and "d" where it ends as it begins and goes up and down by turns.
+///             Encoders without a unit count; other names without one are counts if all cells are whole numbers.
 /// Left out    what was commanded (cmd, target, ...), and currents, voltages and the like.
 ///
 /// Errors  UnclearChoice (unclear_choice.hpp) with all names, in a sentence that says what is missing, or which column could

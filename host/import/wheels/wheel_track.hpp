@@ -11,9 +11,10 @@
 /// Travel of any robot's wheels as it was recorded, before any geometry is applied.
 namespace astro::importing {
 
-/// What was inferred about wheels, or is odd about them. Values: the first column (counts_assumed, per_interval_assumed), the unit (time_unit_assumed), the part of the travel in percent that the sampling leaves uncertain
-/// (speeds_integrated), the side and by how many percent its wheels differ in travel (sides_differ), the side and the
-/// range (continued), the file and the time in seconds (first_left_out, restart_joined).
+/// What was inferred about wheels, or is odd about them. Values: the first column (counts_assumed, per_interval_assumed), the
+/// unit (time_unit_assumed), the part of the travel in percent that the sampling leaves uncertain (speeds_integrated), the side
+/// and by how many percent its wheels differ in travel (sides_differ), the side and the range (continued), the file and the time
+/// in seconds (first_left_out, restart_joined).
 enum class WheelRemark {
   counts_assumed,
   per_interval_assumed,

@@ -29,6 +29,8 @@ TEST(JointNames, TheWheelsOfUsualRobotsAreRecognised) {
   EXPECT_EQ(recognised({"leftWheel", "rightWheel"}), is("leftWheel", "rightWheel"));
   EXPECT_EQ(recognised({"base/leftmotor", "base/rightmotor"}), is("base/leftmotor", "base/rightmotor"));
   EXPECT_EQ(recognised({"left", "right"}), is("left", "right"));
+  EXPECT_EQ(recognised({"mr_left_wheel", "mr_right_wheel"}), is("mr_left_wheel", "mr_right_wheel"));
+  EXPECT_EQ(recognised({"rueda_izquierda", "rueda_derecha"}), is("rueda_izquierda", "rueda_derecha"));
   EXPECT_EQ(recognised({"left_gripper_joint", "right_gripper_joint", "drivewhl_l_joint", "drivewhl_r_joint"}),
             is("drivewhl_l_joint", "drivewhl_r_joint"));
 }

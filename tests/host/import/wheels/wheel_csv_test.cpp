@@ -253,6 +253,10 @@ TEST(WheelCsv, NamesInAnyStyleAreUnderstood) {
         "t\tencL\tencR\ns\tticks\tticks\n0\t1\t2\n0.02\t3\t5\n",
         "# time left_encoder right_encoder\n0.00 1 2\n0.02 3 5\n",
         "stamp.sec,stamp.nanosec,l_enc,r_enc\n0,0,1,2\n0,20000000,3,5\n",
+        "time_s,ml_left_ticks,mr_left_torque,ml_right_ticks,mr_right_torque\n0,1,9,2,9\n0.02,3,9,5,9\n",
+        "t_s,mr_left_ticks,mr_right_ticks\n0,1,2\n0.02,3,5\n", "Zeit (s);links;rechts\n0,00;1;2\n0,02;3;5\n",
+        "temps_s,gauche,droite\n0,1,2\n0.02,3,5\n", "tiempo_s,izquierda,derecha\n0,1,2\n0.02,3,5\n",
+        "tempo_s,ruota sinistra,ruota destra\n0,1,2\n0.02,3,5\n",
         "timestamp,left,right\n1970-01-01T00:00:00Z,1,2\n1970-01-01T00:00:00.020Z,3,5\n",
         "Time [s],Left wheel (counts),Right wheel (counts),left_cmd,right_cmd\n0,1,2,9,9\n0.02,3,5,9,9\n"}) {
     const WheelTrack track = wheels(text);
