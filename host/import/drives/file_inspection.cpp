@@ -131,13 +131,14 @@ std::optional<truth::Inspection> inspect_tracker(const fs::path& path, const std
   return truth::inspect(text, path.string(), columns);
 }
 
-/// Nothing if the columns are not those of end poses.
+/// Nothing if no columns are named as the errors of ends. What else is wrong with a table that has them is thrown.
 std::optional<calibration::EndPoseTable> inspect_end_poses(const fs::path& path) {
   const Bytes bytes = tables::text_of_file(path);
   try {
     return calibration::read_end_poses(as_text(bytes), path.string());
-  } catch (const Error&) {
-    return std::nullopt;  // what is wrong with it as a table of wheels is said instead
+  } catch (const Error& error) {
+    if (error.kind() != calibration::EndPoseTableProblem::no_column) throw;
+    return std::nullopt;
   }
 }
 

@@ -7,6 +7,7 @@
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/formats/tables/table.hpp"
 #include "host/import/drives/file_inspection.hpp"
 #include "host/recording/rosbag_export.hpp"
 #include "host/recording/run_file.hpp"
@@ -537,6 +538,19 @@ TEST_F(Import, ATableThatIsNotUnderstoodIsToldAsOneOfWheels) {
               Tells(WheelProblem::columns_unclear, "stamp", "enc a", "enc b"));
   std::ofstream(at("ends.csv")) << "ex [mm];ey [mm]\n-1,5;2,25\n3,5;4\n";
   EXPECT_EQ(inspect_file(at("ends.csv")).end_poses->poses.size(), 2U);
+}
+
+TEST_F(Import, ATableOfEndPosesWithAMistakeIsToldAsOneOfEndPoses) {
+  using calibration::EndPoseTableProblem;
+  std::ofstream(at("cell.csv")) << "ex_mm,ey_mm,etheta_deg\n1,2,3\nx,2,3\n";
+  EXPECT_THAT(told_by([&] { inspect_file(at("cell.csv")); }),
+              Tells(EndPoseTableProblem::not_a_number, at("cell.csv").string(), "3", "ex_mm", "x"));
+  std::ofstream(at("commas.csv")) << "run,ex_mm,ey_mm,etheta_deg\n1,1,5,2,5,3\n2,1,5,2,5,3\n";
+  EXPECT_THAT(told_by([&] { inspect_file(at("commas.csv")); }),
+              Tells(tables::TableProblem::rows_of_other_length, at("commas.csv").string(), "2", "6", "4"));
+  std::ofstream(at("unit.csv")) << "ex_mm,ey_mm,etheta_mrad\n1,2,3\n";
+  EXPECT_THAT(told_by([&] { inspect_file(at("unit.csv")); }),
+              Tells(EndPoseTableProblem::no_unit, at("unit.csv").string(), "1", "etheta_mrad"));
 }
 
 TEST_F(Import, AnotherUnitIsTakenInPlaceOfTheFilesOwn) {
