@@ -13,7 +13,7 @@ namespace astro::calibration {
 ///
 /// Method  The fit's information is quadratic in the unknowns, so the gain in -2 log likelihood is known for every way to group
 ///         the runs, without another fit.
-/// Cost    a step of the fit for each run, more only if there is something to split.
+/// Cost    a step of the fit for each run. If there is something to split, the search is quadratic in the runs.
 bool split_sessions(const MlFit& fit, PreparedRuns& runs);
 
 }  // namespace astro::calibration

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
@@ -60,7 +62,50 @@ Positions handedness_of_positions(const PreparedRun& run, const std::vector<Body
       silent ? PreparationProblem::mirrored_or_clockwise : PreparationProblem::mirrored, {name});
 }
 
+/// A drive's turn by the wheels and by its measured ends, of which the latter is known up to whole turns.
+struct Turn {
+  double wheels_rad, ends_rad;
+};
+
+/// By how much the turns differ if those of the wheels are `sign` times what they seem, with the wheelbase that fits best.
+double misfit_rad(const std::vector<Turn>& turns, double sign) {
+  constexpr double kLeast = 0.85, kMost = 1.18, kStep = 0.002;  // of the nominal turn
+  double least = HUGE_VAL;
+  for (double scale = kLeast; scale < kMost; scale += kStep) {
+    double sum = 0;
+    for (const Turn& turn : turns)
+      sum += std::pow(wrapped_rad(turn.ends_rad - sign * scale * turn.wheels_rad), 2);
+    least = std::min(least, sum);
+  }
+  return std::sqrt(least / static_cast<double>(turns.size()));
+}
+
 }  // namespace
+
+void require_handedness_of_ends(std::span<const PreparedRun> runs, const WheelFactors& loaded) {
+  constexpr std::size_t kFewest = 3;
+  // Far above the errors of headings that a person reads, and a third of what turns that have nothing in common differ by.
+  constexpr double kWrong_rad = 0.35, kBetter = 3;
+  std::vector<Turn> turns;
+  const Trajectory* first = nullptr;
+  for (const PreparedRun& run : runs) {
+    if (!run.source->ends_only || !run.has_headings) continue;
+    const WheelSample &from = run.source->wheels.front(), &to = run.source->wheels.back();
+    const double right_m = loaded.c_r * (to.right_m - from.right_m),
+                 left_m = loaded.c_l * (to.left_m - from.left_m);
+    turns.push_back(
+        {(right_m - left_m) / loaded.b_m, run.truth.back().theta_rad - run.truth.front().theta_rad});
+    if (first == nullptr) first = run.source;
+  }
+  if (turns.size() < kFewest) return;
+  const double as_they_are = misfit_rad(turns, 1);
+  if (as_they_are < kWrong_rad || misfit_rad(turns, -1) > as_they_are / kBetter) return;
+  throw Error(
+      first->name +
+          " and the other drives end turned as if the wheels turned the other way: the left and right "
+          "wheels are exchanged, or the headings are clockwise, or the axes mirrored",
+      PreparationProblem::mirrored_or_clockwise, {first->name});
+}
 
 void require_handedness(const PreparedRun& run, const ClockFit& clock, const WheelFactors& loaded) {
   if (run.rotation_rad < 1) return;

@@ -466,6 +466,7 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
     prepared.clocks.push_back(clock);
   }
   if (prepared.runs.empty()) throw Error(prepared.left_out.front());
+  require_handedness_of_ends(prepared.runs, loaded);
   find_sessions(prepared, loaded);
   return prepared;
 }

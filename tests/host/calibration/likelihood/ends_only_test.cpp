@@ -58,6 +58,22 @@ TEST(EndsOnly, OfArbitraryDrivesGiveAllFactorsWithAnHonestError) {
   }
 }
 
+TEST(EndsOnly, ThatTurnTheOtherWayThanTheWheelsAreToldAsExchangedWheels) {
+  DriveModel model = astro_drive();
+  model.noise = {2.645e-6, 0.002, 0.007};
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    std::vector<Trajectory> runs = drives_with_ends(model, seed);
+    WheelFactors rough = model.loaded;
+    rough.b_m *= seed % 2 == 0 ? 0.95 : 1.05;  // as a ruler gives it
+    EXPECT_NO_THROW(from_ends(runs, rough)) << seed;
+    for (Trajectory& run : runs)
+      for (WheelSample& sample : run.wheels) std::swap(sample.left_m, sample.right_m);
+    EXPECT_THAT([&] { from_ends(runs, rough); },
+                support::ThrowsTelling(PreparationProblem::mirrored_or_clockwise, runs[0].name))
+        << seed;
+  }
+}
+
 TEST(EndsOnly, AreNotSaidToDisagreeWithANoiseThatNobodyGave) {
   DriveModel model = astro_drive();
   model.noise = {2.645e-6, 0.002, 0.007};
