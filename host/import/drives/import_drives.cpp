@@ -70,11 +70,25 @@ void refuse_copy(const recording::Run& run, std::span<const recording::Run> othe
           ImportProblem::copy_of_other, {name, names[i]});
 }
 
+/// The wheels of a drive alone, as one without ground truth.
+PairedDrive unpaired(const std::string& name, const DriveFiles& files, const ImportChoices& choices,
+                     RecordedSizes& geometry) {
+  ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
+  const std::optional<double> counter_range = wheels.track.counter_range;
+  const RobotGeometry& sizes = geometry.of(files.wheels, wheels);
+  WheelRun made = run_of_wheels(name, std::move(wheels), sizes);
+  return {std::move(made.run), {{}, std::move(made.summary), std::move(made.remarks)}, counter_range};
+}
+
 /// Reads all drives. What one of them does not show is taken from the others.
 class AllDrives {
  public:
-  AllDrives(std::span<const DriveFiles> files, const ImportChoices& choices)
-      : files_(files),
+  using Reader = decltype(paired);
+
+  /// `reader` reads one of them.
+  AllDrives(Reader& reader, std::span<const DriveFiles> files, const ImportChoices& choices)
+      : reader_(reader),
+        files_(files),
         choices_(files.size(), choices),
         geometry_(choices.geometry),
         names_(names_of(files)) {}
@@ -99,7 +113,7 @@ class AllDrives {
   }
 
   void read(std::size_t i) try {
-    drives_[i] = paired(names_[i], files_[i], choices_[i], geometry_);
+    drives_[i] = reader_(names_[i], files_[i], choices_[i], geometry_);
     failed_[i].reset();
   } catch (const Error& error) {
     if (error.kind() != truth::FloorProblem::no_up_axis && !is_of_counter(error.kind())) throw;
@@ -163,6 +177,7 @@ class AllDrives {
     }
   }
 
+  Reader& reader_;
   std::span<const DriveFiles> files_;
   std::vector<ImportChoices> choices_;  // of each drive
   RecordedSizes geometry_;
@@ -171,29 +186,30 @@ class AllDrives {
   std::vector<std::optional<Error>> failed_ = std::vector<std::optional<Error>>(files_.size());
 };
 
+ImportedDrives collected(std::vector<PairedDrive> drives, const std::vector<std::string>& names) {
+  ImportedDrives all;
+  all.set.names = names;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    refuse_copy(drives[i].run, all.set.runs, names[i], names);
+    all.set.runs.push_back(std::move(drives[i].run));
+    all.reports.push_back(std::move(drives[i].report));
+  }
+  return all;
+}
+
 }  // namespace
 
 ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoices& choices) {
   std::vector<DriveFiles> files;
   for (const fs::path& path : wheels) files.push_back({path, {}});
   refuse_twins(files);
-  RecordedSizes geometry(choices.geometry);
-  ImportedDrives drives;
-  drives.set.names = names_of(files);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    ImportedWheels read = read_wheels(files[i].wheels, choices.wheels);
-    const RobotGeometry& sizes = geometry.of(files[i].wheels, read);
-    WheelRun made = run_of_wheels(drives.set.names[i], std::move(read), sizes);
-    refuse_copy(made.run, drives.set.runs, drives.set.names[i], drives.set.names);
-    drives.set.runs.push_back(std::move(made.run));
-    drives.reports.push_back({{}, std::move(made.summary), std::move(made.remarks)});
-  }
-  return drives;
+  AllDrives reader(unpaired, files, choices);
+  return collected(reader.read(), reader.names());
 }
 
 ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoices& choices) {
   refuse_twins(files);
-  AllDrives reader(files, choices);
+  AllDrives reader(paired, files, choices);
   std::vector<PairedDrive> drives = reader.read();
   const std::vector<std::string>& names = reader.names();
   // Wheels that are exchanged and reversed turn the robot as the truth does. Nothing but their direction shows it.
@@ -203,14 +219,7 @@ ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoi
     throw Error("by its wheels the robot drove backward in " +
                     (files.size() == 1 ? "'" + names.front() + "'" : "all drives"),
                 ImportProblem::drives_backward, {names.front()});
-  ImportedDrives all;
-  all.set.names = names;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    refuse_copy(drives[i].run, all.set.runs, names[i], names);
-    all.set.runs.push_back(std::move(drives[i].run));
-    all.reports.push_back(std::move(drives[i].report));
-  }
-  return all;
+  return collected(std::move(drives), names);
 }
 
 }  // namespace astro::importing

@@ -503,13 +503,16 @@ TEST_F(Import, ASlowLogTakesTheRangeOfItsCounterFromTheOthers) {
     files.push_back({write_counts_to_8999(at(fmt::format("w{}", i)), run, 1),
                      test::write_tum(at(fmt::format("t{}", i)), run)});
   }
-  const std::vector<recording::OdometrySample> odometry =
-      import_drives(files, choices()).set.runs[0].odometry;
-  const calibration::WheelSample last = drives()[0].wheels[kSlow * (odometry.size() - 1)];
-  EXPECT_EQ(odometry.back().left_counts - odometry.front().left_counts,
-            std::lround(last.left_m / test::kMetresPerCount));
-  EXPECT_EQ(odometry.back().right_counts - odometry.front().right_counts,
-            std::lround(last.right_m / test::kMetresPerCount));
+  std::vector<fs::path> wheels;
+  for (const DriveFiles& pair : files) wheels.push_back(pair.wheels);
+  for (const ImportedDrives& all : {import_drives(files, choices()), import_wheels(wheels, choices())}) {
+    const std::vector<recording::OdometrySample>& odometry = all.set.runs[0].odometry;
+    const calibration::WheelSample last = drives()[0].wheels[kSlow * (odometry.size() - 1)];
+    EXPECT_EQ(odometry.back().left_counts - odometry.front().left_counts,
+              std::lround(last.left_m / test::kMetresPerCount));
+    EXPECT_EQ(odometry.back().right_counts - odometry.front().right_counts,
+              std::lround(last.right_m / test::kMetresPerCount));
+  }
 }
 
 /// In a range of 9000, 5000 to 0 is neither motion nor the end, but a controller that was reset goes from anywhere to 0.
