@@ -7,6 +7,7 @@
 #include "hal/sim/chassis.hpp"
 #include "host/base/pose2.hpp"
 #include "host/recording/run.hpp"
+#include "host/simulation/robot/normal_deviates.hpp"
 
 namespace astro::simulation {
 
@@ -36,7 +37,7 @@ class VirtualMocap {
  private:
   MocapConfig config_;
   std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
+  NormalDeviates normal_;
   double due_us_ = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "host/simulation/robot/normal_deviates.hpp"
+
 namespace astro::simulation {
 namespace {
 
@@ -22,10 +24,10 @@ truth::Pose3 pose_of(const recording::TruthSample& sample, double height_m, doub
 
 void VirtualTracker::take(std::int64_t now_us, const recording::TruthSample& sample) {
   ++frames_;
-  std::normal_distribution<double> normal;
+  NormalDeviates normal;
   const double height_m = kMarkers_m + kHeightNoise_m * normal(random_);
   const double tilt_x_rad = kTilt_rad * normal(random_), tilt_y_rad = kTilt_rad * normal(random_);
-  const bool dropped = std::bernoulli_distribution(faults_.dropped)(random_);
+  const bool dropped = uniform(random_) < faults_.dropped;
   if (!dropped) waiting_.push_back({frames_, now_us, pose_of(sample, height_m, tilt_x_rad, tilt_y_rad)});
 }
 

@@ -13,6 +13,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/degrees.hpp"
 #include "host/base/text/numbers.hpp"
+#include "host/simulation/robot/normal_deviates.hpp"
 #include "host/simulation/study/limits.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
@@ -193,8 +194,8 @@ std::vector<double> clock_offsets_s(const TrialSetup& setup, int trial) {
   std::vector<double> offsets_s(static_cast<std::size_t>(setup.run_count()), 0);
   if (setup.clock_known) return offsets_s;
   std::mt19937_64 clocks(derived_seed(seed_of(setup, trial), kClocks));
-  std::normal_distribution<double> normal(0, setup.clock_offset_sd_s);
-  for (double& offset_s : offsets_s) offset_s = normal(clocks);
+  NormalDeviates normal;
+  for (double& offset_s : offsets_s) offset_s = setup.clock_offset_sd_s * normal(clocks);
   return offsets_s;
 }
 

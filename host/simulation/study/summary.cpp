@@ -6,6 +6,7 @@
 #include <random>
 
 #include "host/base/order_statistics.hpp"
+#include "host/simulation/robot/normal_deviates.hpp"
 #include "host/simulation/study/synthetic_drive.hpp"
 
 namespace astro::simulation::study {
@@ -37,7 +38,7 @@ std::vector<Errors> draws_from(const FactorCovariance& covariance, const TrialSe
   const double alone = std::sqrt(std::max(0.0, covariance(3, 3) - with_three.dot(between)));
   const WheelFactors actual = setup.actual();
   std::mt19937_64 random(derived_seed(setup.seed, kDrawSeed));
-  std::normal_distribution<double> normal;
+  NormalDeviates normal;
   std::vector<Errors> errors;
   for (int i = 0; i < kDraws; ++i) {
     const double a = normal(random), b = normal(random), c = normal(random);

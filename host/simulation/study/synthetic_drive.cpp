@@ -6,6 +6,7 @@
 #include <random>
 
 #include "host/calibration/motion/arc.hpp"
+#include "host/simulation/robot/normal_deviates.hpp"
 
 namespace astro::simulation::study {
 namespace {
@@ -106,7 +107,7 @@ class Drive {
 
   const DriveModel& model_;
   std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
+  NormalDeviates normal_;
   double left_m_ = 0, right_m_ = 0, wound_rad_ = 0;
   Pose2 pose_;
   Track track_;
@@ -134,7 +135,7 @@ double whole_counts(double travel_m, double metres_per_count) {
 }
 
 BodySample seen(const Pose2& robot, const DriveModel& model, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
+  NormalDeviates normal;
   const Pose2 body = robot * model.lever;
   BodySample sample;
   sample.x_m = body.x_m + model.noise.sigma_xy_m * normal(random);
