@@ -13,7 +13,7 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/formats/cdr/codec.hpp"
 #include "host/formats/cdr/names.hpp"
-#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/cdr/type_hash.hpp"
 #include "host/formats/messages/geometry.hpp"
 #include "host/formats/messages/nodes.hpp"
 #include "host/live/dds/discovery.hpp"

@@ -1,7 +1,6 @@
 #include "host/formats/cdr/type_description.hpp"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <array>
 
@@ -56,23 +55,6 @@ std::string lines(const TypeDescription& description) {
   return text;
 }
 
-std::string json(const TypeDescription& description) {
-  std::string fields;
-  for (const auto& [name, type] : description.fields)
-    fields += fmt::format(
-        R"({}{{"name": "{}", "type": {{"type_id": {}, "capacity": {}, "string_capacity": {}, "nested_type_name": "{}"}}}})",
-        fields.empty() ? "" : ", ", name, type.id + static_cast<int>(type.shape), type.capacity,
-        type.string_capacity, type.nested);
-  return fmt::format(R"({{"type_name": "{}", "fields": [{}]}})", description.name, fields);
-}
-
-std::string sha256(const std::string& text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  unsigned size = 0;
-  EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr);
-  return fmt::format("{:02x}", fmt::join(digest.begin(), digest.begin() + size, ""));
-}
-
 }  // namespace
 
 std::string definition_in_words(const TypeDescription& description) {
@@ -80,14 +62,6 @@ std::string definition_in_words(const TypeDescription& description) {
   for (const auto& [name, referred] : description.referred)
     text += fmt::format("{}MSG: {}\n{}", kRule, short_name(name), lines(referred));
   return text;
-}
-
-std::string hash_of(const TypeDescription& description) {
-  std::string referred;
-  for (const auto& [name, each] : description.referred)
-    referred += (referred.empty() ? "" : ", ") + json(each);
-  return "RIHS01_" + sha256(fmt::format(R"({{"type_description": {}, "referenced_type_descriptions": [{}]}})",
-                                        json(description), referred));
 }
 
 std::string dds_type_name(std::string_view type) {

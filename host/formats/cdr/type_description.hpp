@@ -11,8 +11,8 @@
 
 #include "host/formats/cdr/message.hpp"
 
-/// Describes a message type as ROS 2 does, from its list of fields. The type's definition as text and its hash follow from
-/// that.
+/// Describes a message type as ROS 2 does, from its list of fields. The type's definition as text follows from that, and
+/// its hash (type_hash.hpp).
 namespace astro::ros2 {
 
 /// As type_description_interfaces/msg/FieldType numbers them.
@@ -119,21 +119,10 @@ TypeDescription describe() {
 /// The definition as text (ros2msg): the fields, then those of each referred message behind a rule and its name.
 std::string definition_in_words(const TypeDescription& description);
 
-/// "RIHS01_" and 64 hexadecimal digits: SHA-256 of the description as JSON.
-///
-/// Source  REP 2011; rosidl_generator_type_description.
-std::string hash_of(const TypeDescription& description);
-
 template <Message M>
 const std::string& definition_of() {
   static const std::string definition = definition_in_words(describe<M>());
   return definition;
-}
-
-template <Message M>
-const std::string& hash_of() {
-  static const std::string hash = hash_of(describe<M>());
-  return hash;
 }
 
 /// The name of a message type on the wire: "nav_msgs::msg::dds_::Odometry_" for "nav_msgs/msg/Odometry".

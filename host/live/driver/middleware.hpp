@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "host/base/bytes.hpp"
-#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/cdr/type_hash.hpp"
 #include "host/live/driver/parameter_table.hpp"
 
 /// Carries a node's topics, services and parameters to others: DDS (host/live/ros2), or the WebSocket of a viewer

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "host/formats/cdr/codec.hpp"
-#include "host/formats/cdr/type_description.hpp"
+#include "host/formats/cdr/type_hash.hpp"
 
 namespace astro::live {
 namespace {

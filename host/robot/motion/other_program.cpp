@@ -2,7 +2,7 @@
 
 #include "host/robot/motion/arming.hpp"
 #include "host/robot/motion/drive_problem.hpp"
-#include "host/robot/sharing/port_socket.hpp"
+#include "host/robot/sharing/port_user.hpp"
 
 namespace astro::robot {
 

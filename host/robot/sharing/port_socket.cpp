@@ -97,11 +97,6 @@ PortUser describe_process(pid_t pid) {
   return {static_cast<std::uint32_t>(pid), line};
 }
 
-std::string in_words(std::uint32_t pid, std::string_view command) {
-  return "process id " + std::to_string(pid) +
-         (command.empty() ? std::string() : ", '" + std::string(command) + "'");
-}
-
 HolderConnection connect_to(const std::string& port_key, microseconds timeout) {
   const SocketAddress address(port_key);
   Descriptor connection = new_socket();

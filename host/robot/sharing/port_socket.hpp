@@ -33,9 +33,6 @@ std::optional<PortUser> peer_of(const Descriptor& connection);
 /// The process and the printable part of its command line.
 PortUser describe_process(pid_t pid);
 
-/// "process id 12, 'astrolabe drive line 2'".
-std::string in_words(std::uint32_t pid, std::string_view command);
-
 /// The result of one try to be served by the program that holds a port.
 struct HolderConnection {
   Descriptor connection;         // after its Welcome; empty if none came

@@ -1,4 +1,5 @@
 #include "host/formats/cdr/type_description.hpp"
+#include "host/formats/cdr/type_hash.hpp"
 
 #include <gmock/gmock.h>
 
