@@ -26,19 +26,34 @@ function(astro_embed_web out web build)
   set(files ${library} ${web}/report.js ${web}/report.css ${web}/template.html)
   set(code "#include \"host/report/assets.hpp\"\n")
   foreach(name file IN ZIP_LISTS names files)
+    set(symbol astro_report_${name})
+    if(ASTROLABE_TARGET STREQUAL "web")  # each symbol in a section of its own, with its size
+      set(section ".section .rodata.${symbol},\"\",@")
+      set(sized ".Lend_${symbol}:\n.size ${symbol}, .Lend_${symbol}-${symbol}")
+      set(length ".section .rodata.${symbol}_length,\"\",@\n.p2align 2")
+      set(length_sized ".size ${symbol}_length, 4\n.text")
+    else()
+      set(section ".section .rodata")
+      set(sized ".Lend_${symbol}:\n.byte 0")
+      set(length ".p2align 2")
+      set(length_sized ".previous")
+    endif()
     string(APPEND code "
-asm(R\"(.section .rodata
-.global astro_report_${name}_begin
-.global astro_report_${name}_end
-astro_report_${name}_begin:
+asm(R\"(${section}
+.globl ${symbol}
+.type ${symbol},@object
+${symbol}:
 .incbin \"${file}\"
-astro_report_${name}_end:
-.byte 0
-.previous)\");
-extern \"C\" const char astro_report_${name}_begin[], astro_report_${name}_end[];
-std::string_view astro::report::assets::${name}() {
-  return {astro_report_${name}_begin, astro_report_${name}_end};
-}
+${sized}
+${length}
+.globl ${symbol}_length
+.type ${symbol}_length,@object
+${symbol}_length:
+.4byte .Lend_${symbol}-${symbol}
+${length_sized})\");
+extern \"C\" const char ${symbol}[];
+extern \"C\" const unsigned ${symbol}_length;
+std::string_view astro::report::assets::${name}() { return {${symbol}, ${symbol}_length}; }
 ")
   endforeach()
   set(source ${build}/assets.cpp)

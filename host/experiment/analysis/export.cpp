@@ -66,7 +66,7 @@ std::string value_text(const toml::node& node) {
   std::ostringstream text;
   if (const auto number = node.value_exact<double>()) return real_text(*number);
   if (const toml::array* array = node.as_array()) {
-    for (const toml::node& value : *array) text << (text.view().empty() ? "[" : ", ") << value_text(value);
+    for (const toml::node& value : *array) text << (text.str().empty() ? "[" : ", ") << value_text(value);
     return text.str() + (array->empty() ? "[]" : "]");
   }
   node.visit([&](const auto& value) { text << value; });
