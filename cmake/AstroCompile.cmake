@@ -33,6 +33,13 @@ if(ASTROLABE_TARGET STREQUAL teensy40)
   target_compile_options(astro_compile INTERFACE ${cortex_m7})
   target_link_options(astro_compile INTERFACE ${cortex_m7})
 endif()
+if(ASTROLABE_TARGET STREQUAL web)
+  # Debian's Emscripten has libc++ 13, whose ranges are not finished. Its compiler and its library go with the headers of 16.
+  target_compile_options(astro_compile INTERFACE -w -fwasm-exceptions -nostdinc++
+    "SHELL:-isystem ${CMAKE_SOURCE_DIR}/host/page/wasm/libcxx" "SHELL:-isystem /usr/lib/llvm-16/include/c++/v1"
+    "SHELL:-include ${CMAKE_SOURCE_DIR}/host/page/wasm/libcxx/chars.hpp")
+  target_link_options(astro_compile INTERFACE -fwasm-exceptions)
+endif()
 if(ASTROLABE_SANITIZE)
   # By clang, which compiles the checks in half the time that GCC takes and sees other things. GCC's warnings are the
   # ones that count: the host build has them all as errors.

@@ -11,7 +11,7 @@ function(astro_alone)
 endfunction()
 
 # The targets with the property UNITY_BUILD, which is how they are born; a target may switch it off.
-if(ASTROLABE_TARGET STREQUAL host AND ASTROLABE_UNITY GREATER 1)
+if(ASTROLABE_TARGET MATCHES "^(host|web)$" AND ASTROLABE_UNITY GREATER 1)
   set(CMAKE_UNITY_BUILD ON)
 endif()
 

@@ -68,6 +68,8 @@ set(ASTRO_LAYERS
   "host/truth/source            : host/base host/recording"
   "host/truth/trackers          : host/base host/formats/cdr host/formats/messages host/truth/source"
   "host/wall                    : common host/base host/calibration/judgement host/calibration/motion host/experiment/analysis host/experiment/files host/robot/client host/robot/motion host/robot/parameters"
+  "host/page/calls              : host/base host/experiment/analysis host/experiment/drive host/experiment/files host/recording host/report host/robot/client host/simulation/robot"
+  "host/page/wasm               : host/base host/page/calls"
   "tests                        : common hal firmware host"
 )
 
@@ -89,10 +91,11 @@ set(ASTRO_OUTSIDE
   "boost/                   : host/base host/commands/live host/live/foxglove host/robot/port host/robot/sharing"
   "cairo/                   : host/film/picture host/film/runs"
   "fastdds/ fastrtps/       : host/live/dds"
+  "emscripten/ fast_float/  : host/page/wasm"
   "fmt/                     : host"
   "bzlib.h lz4frame.h zstd.h : host/formats/files"
   "openssl/                 : host/formats/cdr"
-  "nlohmann/                : host/commands host/experiment host/live/foxglove host/report host/simulation/study host/wall"
+  "nlohmann/                : host/commands host/experiment host/live/foxglove host/page host/report host/simulation/study host/wall"
   "sqlite3.h                : host/formats/files"
   "tinyxml2.h               : host/import/wheels"
   "toml++/                  : host/experiment"
@@ -108,7 +111,7 @@ set(ASTRO_OUTSIDE
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/live/dds host/live/foxglove host/simulation/server host/simulation/study host/truth/live"
 
   # Files, and what is printed.
-  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/film host/formats host/import host/programs host/recording host/report host/robot/port host/simulation/server host/truth/files host/truth/live host/wall"
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/film host/formats host/import host/page host/programs host/recording host/report host/robot/port host/simulation/server host/truth/files host/truth/live host/wall"
   "fstream                  : host/base host/emulator/core host/film/picture host/formats/files host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"

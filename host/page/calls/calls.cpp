@@ -1,0 +1,45 @@
+#include "host/page/calls/calls.hpp"
+
+#include <array>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "host/base/error.hpp"
+#include "host/page/calls/try_out.hpp"
+
+namespace astro::page {
+namespace {
+
+using nlohmann::json;
+
+struct Call {
+  std::string_view name;
+  json (*answer)(const json& question, const std::filesystem::path& folder, const Emit& emit);
+};
+
+constexpr std::array kCalls{Call{"try_out", try_out}};
+
+json refusal(const std::string& sentence, const std::vector<std::string>& values = {}) {
+  return {{"error", {{"sentence", sentence}, {"values", values}}}};
+}
+
+}  // namespace
+
+json answer(const std::string& call, const json& question, const std::filesystem::path& folder,
+            const Emit& emit) {
+  for (const Call& each : kCalls) {
+    if (each.name != call) continue;
+    if (!question.is_object()) return refusal("the question is no object");
+    try {
+      return {{"result", each.answer(question, folder, emit)}};
+    } catch (const Error& error) {
+      return refusal(error.what(), error.values());
+    } catch (const json::exception& error) {
+      return refusal(error.what());
+    }
+  }
+  return refusal("there is no call '" + call + "'", {call});
+}
+
+}  // namespace astro::page

@@ -1,0 +1,232 @@
+import { useRef, useState } from "preact/hooks";
+import type { Backend, Event_ } from "./backend";
+import { type Way, Ways } from "./ways";
+
+/** What a person chooses about the simulated robot, in the units that people see. */
+interface Choice {
+  name: string;
+  label: string;
+  unit: string;
+  least: number;
+  most: number;
+  step: number;
+  usual: number;
+  hint: string;
+}
+
+const kChoices: Choice[] = [
+  { name: "E_d", label: "Right wheel larger by", unit: "%", least: -2, most: 2, step: 0.01, usual: 0.42, hint: "makes straight lines bend" },
+  { name: "E_b", label: "Wheelbase larger by", unit: "%", least: -3, most: 3, step: 0.01, usual: -0.48, hint: "makes turns too far or too short" },
+  { name: "S", label: "Both wheels larger by", unit: "%", least: -2, most: 2, step: 0.01, usual: 0, hint: "makes ways too long or too short" },
+  { name: "e", label: "Gentle arcs turn otherwise by (e)", unit: "%", least: 0, most: 10, step: 0.1, usual: 0, hint: "what wide or soft tyres do" },
+  { name: "slip", label: "Slip", unit: "times", least: 0, most: 30, step: 0.5, usual: 1, hint: "1 is that of a robot of 4.7 kg on a hall's floor" },
+  { name: "seed", label: "Which robot (seed)", unit: "", least: 1, most: 999, step: 1, usual: 1, hint: "the same number drives the same again" },
+];
+
+const question_of = (chosen: Record<string, number>) => ({
+  E_d: 1 + chosen.E_d! / 100,
+  E_b: 1 + chosen.E_b! / 100,
+  S: 1 + chosen.S! / 100,
+  e: chosen.e! / 100,
+  slip: chosen.slip,
+  seed: chosen.seed,
+});
+
+interface Factors {
+  c_R: number;
+  c_L: number;
+  b_m: number;
+  e: number;
+}
+
+interface Answer {
+  results: {
+    before: { E_max_syst_m?: number };
+    after: { E_max_syst_m?: number } | null;
+    improvement: number | null;
+    parameters: { old: Factors; new: Factors | null; standard_errors?: Factors };
+  };
+  built: Factors;
+  verdict: string;
+  report: string;
+}
+
+type State = "ready" | "driving" | "done" | "refused";
+
+function Slider(props: { choice: Choice; value: number; disabled: boolean; set: (value: number) => void }) {
+  const { choice } = props;
+  const id = `choice-${choice.name}`;
+  const change = (event: { currentTarget: HTMLInputElement }) => props.set(Number(event.currentTarget.value));
+  return (
+    <div class="choice">
+      <label for={id}>
+        {choice.label}
+        <small>{choice.hint}</small>
+      </label>
+      <input id={id} type="range" min={choice.least} max={choice.most} step={choice.step} value={props.value}
+        disabled={props.disabled} onInput={change} />
+      <span class="entered">
+        <input type="number" aria-label={`${choice.label}, ${choice.unit}`} min={choice.least} max={choice.most} step={choice.step}
+          value={props.value} disabled={props.disabled} onChange={change} />
+        {choice.unit}
+      </span>
+    </div>
+  );
+}
+
+const kRows = [
+  ["c_R", "c_R", 1, 6, ""],
+  ["c_L", "c_L", 1, 6, ""],
+  ["b_m", "b", 1000, 3, "mm"],
+  ["e", "e", 1, 4, ""],
+] as const;
+
+function FactorTable({ answer }: { answer: Answer }) {
+  const { old, new: found, standard_errors: errors } = answer.results.parameters;
+  const shown = (value: number | undefined | null, scale: number, digits: number) =>
+    value === undefined || value === null ? "–" : (scale * value).toFixed(digits);
+  return (
+    <table>
+      <thead>
+        <tr>
+          <th scope="col">Factor</th>
+          <th scope="col">Before</th>
+          <th scope="col">Found</th>
+          <th scope="col">±</th>
+          <th scope="col">As it was built</th>
+        </tr>
+      </thead>
+      <tbody>
+        {kRows.map(([key, name, scale, digits, unit]) => (
+          <tr key={key}>
+            <th scope="row">
+              {name} {unit && <small>{unit}</small>}
+            </th>
+            <td>{shown(old[key], scale, digits)}</td>
+            <td>{shown(found?.[key], scale, digits)}</td>
+            <td>{shown(errors?.[key], scale, digits)}</td>
+            <td>{shown(answer.built[key], scale, digits)}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function save(name: string, text: string) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type: "text/html" }));
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+/** A simulated robot drives squares as one watches, is calibrated, and drives them again. */
+export function TryPage({ backend }: { backend: Backend }) {
+  const [chosen, choose] = useState(Object.fromEntries(kChoices.map((each) => [each.name, each.usual])));
+  const [state, enter] = useState<State>("ready");
+  const [progress, show_progress] = useState({ title: "", number: 0, total: 0 });
+  const [answer, take] = useState<Answer | null>(null);
+  const [report, set_report] = useState("");
+  const [problem, set_problem] = useState("");
+  const ways = useRef<Way[]>([]);
+  const [, drawn] = useState(0);
+  const pending = useRef(false);
+
+  const redraw = () => {
+    if (pending.current) return;
+    pending.current = true;
+    requestAnimationFrame(() => {
+      pending.current = false;
+      drawn((n) => n + 1);
+    });
+  };
+
+  const told = (event: Event_) => {
+    if (event.event === "run") {
+      ways.current.push({ phase: event.phase as string, odometry: [], truth: [] });
+      show_progress({ title: event.title as string, number: event.number as number, total: event.total as number });
+    } else if (event.event === "way") {
+      const last = ways.current.at(-1);
+      last?.odometry.push(...(event.odometry as number[]));
+      last?.truth.push(...(event.truth as number[]));
+    }
+    redraw();
+  };
+
+  const drive = async () => {
+    ways.current = [];
+    take(null);
+    set_problem("");
+    set_report("");
+    enter("driving");
+    try {
+      const found = await backend.ask<Answer>("try_out", question_of(chosen), told);
+      take(found);
+      set_report(await (await backend.file(found.report)).text());
+      enter("done");
+    } catch (error) {
+      set_problem(error instanceof Error ? error.message : String(error));
+      enter("refused");
+    }
+  };
+
+  const driving = state === "driving";
+  const of = (phase: string) => ways.current.filter((way) => way.phase === phase);
+  return (
+    <>
+      <h1>Try it on a simulated robot</h1>
+      <p>
+        The robot drives squares of 3 m both ways and believes its odometry. Then it is calibrated from what eight cameras saw, and
+        drives them again. All of it is computed in this page: the robot's firmware, its motors and the calibration.
+      </p>
+      <div class="grid">
+        <form
+          aria-label="The robot"
+          onSubmit={(event) => {
+            event.preventDefault();
+            void drive();
+          }}
+        >
+          {kChoices.map((each) => (
+            <Slider key={each.name} choice={each} value={chosen[each.name]!} disabled={driving}
+              set={(value) => choose({ ...chosen, [each.name]: value })} />
+          ))}
+          <button type="submit" aria-busy={driving} disabled={driving}>
+            {driving ? "Driving" : "Drive and calibrate"}
+          </button>
+          {driving && <progress value={progress.number} max={progress.total} aria-label="Drives of this phase" />}
+          <p role="status">{driving && `${progress.title} (${progress.number} of ${progress.total})`}</p>
+          {problem && <p role="alert">{problem}</p>}
+        </form>
+        <div class="phases">
+          {["before", "after"].map((phase) => (
+            <figure key={phase}>
+              <figcaption>
+                {phase === "before" ? "Before" : "After"} <small>
+                  <span class="odometry">odometry</span> and <span class="truth">where it really is</span>
+                </small>
+              </figcaption>
+              <Ways ways={of(phase)} label={`Ways of the drives ${phase} calibration`} />
+            </figure>
+          ))}
+        </div>
+      </div>
+      {answer && (
+        <section aria-label="Result">
+          <h2>Result</h2>
+          <p>{answer.verdict}</p>
+          <FactorTable answer={answer} />
+          {report && (
+            <>
+              <button type="button" class="secondary" onClick={() => save("report.html", report)}>
+                Save the report
+              </button>
+              <iframe srcdoc={report} title="Report" sandbox="allow-scripts" />
+            </>
+          )}
+        </section>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,40 @@
+import type { FromWorker, ToWorker } from "./wasm_messages";
+
+/** The module's surface (host/page/wasm/main.cpp). */
+interface Module {
+  answer(call: string, question: string, emit: (event: string) => void): string;
+  FS: { mkdir(path: string): void; readFile(path: string): Uint8Array<ArrayBuffer> };
+}
+
+const kFolder = "/work";
+
+async function load(): Promise<Module> {
+  const address = new URL(/* @vite-ignore */ "../astrolabe.mjs", import.meta.url).href;
+  const { default: create } = (await import(/* @vite-ignore */ address)) as { default: () => Promise<Module> };
+  const module = await create();
+  module.FS.mkdir(kFolder);
+  return module;
+}
+
+const loading = load();
+const post = (message: FromWorker) => postMessage(message);
+
+onmessage = async ({ data }: MessageEvent<ToWorker>) => {
+  const { id } = data;
+  try {
+    const module = await loading;
+    if (data.kind === "file") {
+      post({ id, kind: "file", bytes: module.FS.readFile(`${kFolder}/${data.path}`) });
+      return;
+    }
+    const answer = JSON.parse(
+      module.answer(data.call, JSON.stringify(data.question), (event) =>
+        post({ id, kind: "event", event: JSON.parse(event) }),
+      ),
+    );
+    if (answer.error) post({ id, kind: "refusal", sentence: answer.error.sentence });
+    else post({ id, kind: "answer", answer: answer.result });
+  } catch (error) {
+    post({ id, kind: "refusal", sentence: error instanceof Error ? error.message : String(error) });
+  }
+};

@@ -1,0 +1,60 @@
+# The libraries of the web page's module. What is headers alone comes from Debian's packages, by links, because /usr/include
+# as a whole would hide Emscripten's own C library. C libraries are compiled from Debian's source packages, which
+# `./dev web` unpacks into build/web-sources.
+include_guard(GLOBAL)
+enable_language(C)
+
+set(headers ${CMAKE_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${headers})
+foreach(each boost eigen3/Eigen fast_float fmt nlohmann toml++)
+  get_filename_component(name ${each} NAME)
+  if(NOT EXISTS /usr/include/${each})
+    message(FATAL_ERROR "there is no /usr/include/${each}: ./dev web installs it")
+  endif()
+  file(CREATE_LINK /usr/include/${each} ${headers}/${name} SYMBOLIC)
+endforeach()
+
+function(astro_web_headers name)
+  add_library(${name} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${name} SYSTEM INTERFACE ${headers})
+endfunction()
+astro_web_headers(Eigen3::Eigen)
+astro_web_headers(fmt::fmt)
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+astro_web_headers(nlohmann_json::nlohmann_json)
+astro_web_headers(tomlplusplus::tomlplusplus)
+add_library(OpenSSL::Crypto INTERFACE IMPORTED GLOBAL)
+add_library(Threads::Threads INTERFACE IMPORTED GLOBAL)
+
+set(ASTROLABE_WEB_SOURCES ${CMAKE_SOURCE_DIR}/build/web-sources CACHE PATH "where the source packages are unpacked")
+# astro_web_library(<target> <folder> DEFINITIONS ... INCLUDES ... SOURCES ...): sources are globs below the folder.
+function(astro_web_library target folder)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "DEFINITIONS;INCLUDES;SOURCES")
+  set(root ${ASTROLABE_WEB_SOURCES}/${folder})
+  if(NOT EXISTS ${root})
+    message(FATAL_ERROR "there is no ${ASTROLABE_WEB_SOURCES}/${folder}: ./dev web unpacks it")
+  endif()
+  list(TRANSFORM arg_SOURCES PREPEND ${root}/)
+  list(TRANSFORM arg_INCLUDES PREPEND ${root}/)
+  file(GLOB sources ${arg_SOURCES})
+  string(REGEX REPLACE ".*::" "web_" name ${target})
+  add_library(${name} STATIC ${sources})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  target_include_directories(${name} SYSTEM PUBLIC ${arg_INCLUDES})
+  target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
+  target_compile_options(${name} PRIVATE -w)
+  add_library(${target} ALIAS ${name})
+endfunction()
+astro_web_library(BZip2::BZip2 bzip2-src INCLUDES .
+  SOURCES blocksort.c huffman.c crctable.c randtable.c compress.c decompress.c bzlib.c)
+astro_web_library(PkgConfig::lz4 lz4-src INCLUDES lib DEFINITIONS XXH_NAMESPACE=LZ4_ SOURCES lib/*.c)
+astro_web_library(PkgConfig::sqlite3 sqlite3-src INCLUDES . SOURCES sqlite3.c DEFINITIONS
+  SQLITE_THREADSAFE=0 SQLITE_OMIT_LOAD_EXTENSION SQLITE_OMIT_WAL)
+astro_web_library(PkgConfig::tinyxml2 tinyxml2-src INCLUDES . SOURCES tinyxml2.cpp)
+astro_web_library(PkgConfig::yaml libyaml-src INCLUDES include src SOURCES src/*.c DEFINITIONS
+  YAML_VERSION_MAJOR=0 YAML_VERSION_MINOR=2 YAML_VERSION_PATCH=5 YAML_VERSION_STRING="0.2.5")
+astro_web_library(PkgConfig::zlib zlib-src INCLUDES . DEFINITIONS HAVE_UNISTD_H Z_HAVE_UNISTD_H SOURCES
+  adler32.c crc32.c inflate.c inffast.c inftrees.c zutil.c deflate.c trees.c gzread.c gzlib.c gzclose.c gzwrite.c compress.c
+  uncompr.c)
+astro_web_library(PkgConfig::zstd libzstd-src INCLUDES lib DEFINITIONS XXH_NAMESPACE=ZSTD_ ZSTD_DISABLE_ASM SOURCES
+  lib/common/*.c lib/compress/*.c lib/decompress/*.c)
