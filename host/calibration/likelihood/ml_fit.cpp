@@ -452,7 +452,10 @@ void MlFit::require_plausible() const {
                     "may be times of arrival, the resolution of the encoders and of the ground truth, and "
                     "whether the tracked body stayed where it was on the robot",
                 LikelihoodProblem::stamps_or_resolution);
-  throw Error(found + ": check the unit of the ground truth, the wheel diameter and the counts of a turn",
+  // Few ends do not show their handedness (preparation/handedness.hpp).
+  const bool ends = std::ranges::all_of(runs_, [](const PreparedRun& run) { return run.source->ends_only; });
+  throw Error(found + ": check " + (ends ? "that the left and right wheels are not exchanged, " : "") +
+                  "the unit of the ground truth, the wheel diameter and the counts of a turn",
               LikelihoodProblem::implausible_factors);
 }
 

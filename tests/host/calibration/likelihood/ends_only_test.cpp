@@ -74,6 +74,22 @@ TEST(EndsOnly, ThatTurnTheOtherWayThanTheWheelsAreToldAsExchangedWheels) {
   }
 }
 
+TEST(EndsOnly, TooFewToShowTheirHandednessAreStillToldOfExchangedWheels) {
+  DriveModel model = astro_drive();
+  model.noise = {2.645e-6, 0.002, 0.007};
+  std::vector<Trajectory> runs;
+  for (const double turn_rad : {7.0, -7.0, 7.0})
+    runs.push_back(simulation::study::synthetic_drive(simulation::study::circle_course(1, turn_rad), model,
+                                                      "arc", kSeed + runs.size()));
+  for (Trajectory& run : runs) {
+    run.truth = {run.truth.front(), run.truth.back()};
+    run.ends_only = true;
+    for (WheelSample& sample : run.wheels) std::swap(sample.left_m, sample.right_m);
+  }
+  EXPECT_THAT([&] { from_ends(runs, model.loaded); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("exchanged")));
+}
+
 TEST(EndsOnly, AreNotSaidToDisagreeWithANoiseThatNobodyGave) {
   DriveModel model = astro_drive();
   model.noise = {2.645e-6, 0.002, 0.007};
