@@ -14,6 +14,7 @@
 #include "host/calibration/judgement/held_out_factors.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/judgement/student_t.hpp"
+#include "host/calibration/likelihood/day_drift.hpp"
 #include "host/calibration/likelihood/ml_fit.hpp"
 #include "host/calibration/preparation/preparation.hpp"
 
@@ -195,10 +196,21 @@ std::vector<HeldOutRun> HoldOut::judged() const {
   return runs;
 }
 
+void require_more_than_drift(const MlEstimate& all, const WheelFactors& in_use, bool scale_known,
+                             CrossValidation& out) {
+  std::vector<int> shown{kRatio, kBaseOverScale};
+  if (scale_known) shown.push_back(kScale);
+  if (all.covariance(kE, kE) > 0) shown.push_back(kRatioE);  // otherwise it is held
+  const Eigen::MatrixXd jacobian = ratios_by_factors(all.factors)(shown, Eigen::all);
+  out.require_more_than_drift(jacobian * (vector_of(all.factors) - vector_of(in_use)),
+                              jacobian * all.covariance * jacobian.transpose(),
+                              jacobian * all.covariance_another_day * jacobian.transpose());
+}
+
 }  // namespace
 
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
-                               const MlEstimate& all, const MlOptions& options) {
+                               const MlEstimate& all, const MlOptions& options, bool scale_known) {
   MlOptions with_noise = options;
   with_noise.noise = all.noise;
   with_noise.spacing_m = all.spacing_m;
@@ -209,11 +221,7 @@ CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFact
   for (const std::vector<std::size_t>& members : groups_of(prepared)) hold_out.hold_out(members, out);
   out.runs = hold_out.judged();
   out.judge();
-  const int dof = all.covariance(kE, kE) > 0 ? kFactors : kE;  // e is the last, and may be held
-  const Eigen::VectorXd change = (vector_of(all.factors) - vector_of(in_use)).head(dof);
-  // The factors in use have an error of their own, which is taken to be like that of these drives.
-  const Eigen::MatrixXd another_day = (all.covariance_another_day + all.covariance).topLeftCorner(dof, dof);
-  out.require_more_than_drift(change.dot(another_day.ldlt().solve(change)), dof);
+  require_more_than_drift(all, in_use, scale_known, out);
   if (out.verdict == Verdict::better && may_be_worse_elsewhere(all, hold_out.change())) {
     out.verdict = Verdict::unknown;
     out.not_judged.push_back(

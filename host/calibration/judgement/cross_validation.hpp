@@ -18,9 +18,11 @@ namespace astro::calibration {
 /// `in_use`: the factors to compare with. `all`: the estimate from all runs; its noise model, spacing of samples and
 /// widening are used for each group.
 ///
+/// scale_known: whether the truth's lengths are. If not, the caller gives `in_use` at the scale found, and S is not compared.
+///
 /// Cost    less than that of the estimate: each run is followed twice more, whatever the number of groups (one for each run,
 ///         but ten at most).
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
-                               const MlEstimate& all, const MlOptions& options);
+                               const MlEstimate& all, const MlOptions& options, bool scale_known = true);
 
 }  // namespace astro::calibration

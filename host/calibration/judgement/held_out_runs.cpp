@@ -1,6 +1,7 @@
 #include "host/calibration/judgement/held_out_runs.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -73,9 +74,14 @@ void CrossValidation::judge() {
   if (!not_judged.empty() && !clearly_worse) verdict = Verdict::unknown;
 }
 
-void CrossValidation::require_more_than_drift(double chi_square, int dof) {
-  if (verdict != Verdict::better || !(chi_square <= chi_square_95(dof))) return;
-  within_drift = true;
+void CrossValidation::require_more_than_drift(const Eigen::VectorXd& change, const Eigen::MatrixXd& own,
+                                              const Eigen::MatrixXd& another_day) {
+  const auto is_within = [&](const Eigen::MatrixXd& covariance) {
+    return change.dot(covariance.ldlt().solve(change)) <= chi_square_95(static_cast<int>(change.size()));
+  };
+  if (verdict != Verdict::better || !is_within(own + another_day)) return;
+  within_drift = is_within(another_day - own);
+  within_errors_and_drift = !within_drift;
   verdict = Verdict::undecided;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct CrossValidation {
   /// The factors found differ from those in use by less than a robot's do from one day to another, so that other drives of
   /// another day need not be better.
   bool within_drift = false;
+  /// The same only together with the errors of these drives: more drives may show a difference.
+  bool within_errors_and_drift = false;
 
   /// Runs that are more likely with the new factors.
   int better_on() const;
@@ -52,9 +55,11 @@ struct CrossValidation {
 
   /// Sets the verdict.
   void judge();
-  /// Takes "better" back if the factors in use may have been right on another day. `chi_square` is that of their difference from
-  /// those found by the errors on another day; `dof` at most 4.
-  void require_more_than_drift(double chi_square, int dof);
+  /// Takes "better" back if the factors in use may have been right on another day. They have an error of their own, which is taken
+  /// to be like that of these drives. `change` is from them to those found, in at most four independent quantities that these
+  /// drives show; `own` and `another_day` are the covariances of what was found, without and with what changes from day to day.
+  void require_more_than_drift(const Eigen::VectorXd& change, const Eigen::MatrixXd& own,
+                               const Eigen::MatrixXd& another_day);
   /// For `not_judged`, if a chi-square of what these runs alone show is significant. The values are the names.
   static Remark known_by_these_alone(const std::vector<std::string>& held_out);
   /// For `not_judged`: "without run 1 and run 3, the runs do not separate ...". Its kind is the

@@ -16,16 +16,6 @@ constexpr double kPriorDays = 4;
 constexpr double kSaysNothing = 0.01;
 constexpr double kNight_s = 6 * 3600;
 
-/// Relative changes of E_d, S and b / S by those of the factors.
-Eigen::Matrix<double, 3, kFactors> ratios_by_factors(const WheelFactors& f) {
-  const double both = f.c_r + f.c_l;
-  Eigen::Matrix<double, 3, kFactors> jacobian;
-  jacobian << 1 / f.c_r, -1 / f.c_l, 0, 0,  //
-      1 / both, 1 / both, 0, 0,             //
-      -1 / both, -1 / both, 1 / f.b_m, 0;
-  return jacobian;
-}
-
 std::vector<Pool> pools_of_days(std::span<const InnovationSums> drives, std::span<const int> days,
                                 const FixedParameters& fixed, const PriorOfE& prior) {
   std::vector<Pool> pools;
@@ -67,6 +57,16 @@ double between_two_days(const std::vector<Value>& days, double usual_difference)
 
 }  // namespace
 
+FactorMatrix ratios_by_factors(const WheelFactors& f) {
+  const double both = f.c_r + f.c_l;
+  FactorMatrix jacobian;
+  jacobian << 1 / f.c_r, -1 / f.c_l, 0, 0,  //
+      1 / both, 1 / both, 0, 0,             //
+      -1 / both, -1 / both, 1 / f.b_m, 0,   //
+      0, 0, 0, 1;
+  return jacobian;
+}
+
 FactorMatrix DayDrift::covariance(const WheelFactors& f) const {
   // ln c_R = ln S + ln E_d / 2, ln c_L = ln S - ln E_d / 2, ln b = ln (b / S) + ln S, to first order.
   FactorMatrix jacobian;
@@ -94,7 +94,7 @@ DayDrift drift_between_days(std::span<const InnovationSums> drives, std::span<co
                             const FixedParameters& fixed, const PriorOfE& prior,
                             const WheelFactors& factors) {
   DayDrift drift;
-  const Eigen::Matrix<double, 3, kFactors> jacobian = ratios_by_factors(factors);
+  const Eigen::Matrix<double, 3, kFactors> jacobian = ratios_by_factors(factors).topRows<3>();
   std::array<std::vector<Value>, 3> values;
   for (const Pool& day : pools_of_days(drives, days, fixed, prior)) {
     const Eigen::Vector3d off = jacobian * day.factor_step();

@@ -11,6 +11,12 @@
 /// How much the factors of a robot change from one day to another: tyres, load, floor and temperature are others.
 namespace astro::calibration {
 
+/// The order of ratios_by_factors.
+enum Ratio { kRatio, kScale, kBaseOverScale, kRatioE };
+
+/// Relative changes of E_d, S and b / S, and the change of e, by those of the factors.
+FactorMatrix ratios_by_factors(const WheelFactors& factors);
+
 /// Standard deviations of the difference between two days: of E_d = c_R / c_L, of S = (c_R + c_L) / 2 and of b / S, relative, and of e,
 /// which change independently. The defaults are those of real robots: one had an E_d of 0.99892 and ten days later of 0.99946; S and
 /// b / S change less, and 3e-4 is an assumption. No change of e was seen, and no e is known better than to 0.003.

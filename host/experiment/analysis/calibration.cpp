@@ -186,7 +186,8 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   const calibration::WheelFactors compared = std::isinf(result.truth_scale_sigma)
                                                  ? with_scale_of(ml.estimate.factors, result.loaded)
                                                  : result.loaded;
-  result.judgement = calibration::cross_validate(runs, compared, ml.estimate, ml.options);
+  result.judgement = calibration::cross_validate(runs, compared, ml.estimate, ml.options,
+                                                 !std::isinf(result.truth_scale_sigma));
   if (result.truth_scale_sigma > 0) add_scale_error(result.truth_scale_sigma, result.loaded, ml.estimate);
   result.factors = ml.estimate.factors;
   result.se = factor_errors(ml.estimate.covariance, result);
@@ -265,10 +266,15 @@ void add_drift(Calibration& result) {
   else
     se.scale = FactorErrors::kUnknown;
   const double base = result.E_b() / (has_scale ? result.scale_change() : 1);
-  double chi_square =
-      std::pow((result.E_d() - 1) / errors.E_d, 2) + std::pow((base - 1) / errors.b_over_scale, 2);
-  if (has_scale) chi_square += std::pow((result.scale_change() - 1) / errors.scale, 2);
-  result.judgement.require_more_than_drift(chi_square, has_scale ? 3 : 2);
+  const int shown = has_scale ? 3 : 2;
+  const Eigen::Vector3d change(result.E_d() - 1, base - 1, result.scale_change() - 1),
+      own_errors(own.E_d / result.E_d(), own_base, own_scale),
+      on_another_day(errors.E_d, errors.b_over_scale, errors.scale);
+  const auto covariance_of = [&](const Eigen::Vector3d& independent) -> Eigen::MatrixXd {
+    return independent.head(shown).cwiseAbs2().asDiagonal();
+  };
+  result.judgement.require_more_than_drift(change.head(shown), covariance_of(own_errors),
+                                           covariance_of(on_another_day));
 }
 
 void require_truth(Phases phases) {

@@ -68,6 +68,9 @@ std::string judgement_sentence(const CrossValidation& judgement) {
       judgement.within_drift ? "There is little to gain, because what was found differs from what the robot "
                                "carries by less than "
                                "robots change from day to day: n"
+      : judgement.within_errors_and_drift
+          ? "What was found differs from what the robot carries by no more than these drives leave open and "
+            "robots change by from day to day: n"
       : judgement.little_to_gain()
           ? "There is little to gain, because the robot carries what was found, within the error of "
             "these drives: n"

@@ -87,6 +87,34 @@ TEST(CrossValidation, CallsNothingBetterThatDiffersByLessThanRobotsDoFromDayToDa
   }
 }
 
+// Three directions are left then, and 95 % of the days are within 2.80 standard deviations.
+TEST(CrossValidation, DoesNotCountAScaleThatNobodyKnowsAmongWhatMayHaveDrifted) {
+  const DriveModel model = quiet_drive();
+  const std::vector<Trajectory> drives = varied_drives(model);
+  const WheelFactors in_use = off_by(model.actual, Wrong::ratio, 2.93 * DayDrift().E_d);
+  const MlEstimate all = estimate_ml(drives, in_use, known_clock());
+  EXPECT_EQ(cross_validate(drives, in_use, all, known_clock(), true).verdict, Verdict::undecided);
+  EXPECT_EQ(cross_validate(drives, in_use, all, known_clock(), false).verdict, Verdict::better);
+}
+
+// The standard deviation of the drift is 1, and both the factors in use and those found have the drives' own error.
+TEST(CrossValidation, CallsItLittleToGainOnlyWhereTheDriftAloneExplainsTheChange) {
+  const auto judged = [](double change, double own) {
+    CrossValidation out;
+    out.verdict = Verdict::better;
+    out.require_more_than_drift(Eigen::VectorXd::Constant(1, change),
+                                Eigen::MatrixXd::Constant(1, 1, own * own),
+                                Eigen::MatrixXd::Constant(1, 1, own * own + 1));
+    return out;
+  };
+  EXPECT_EQ(judged(3, 0.1).verdict, Verdict::better);
+  EXPECT_TRUE(judged(1.9, 0.1).within_drift);
+  const CrossValidation uncertain = judged(3, 2);
+  EXPECT_EQ(uncertain.verdict, Verdict::undecided);
+  EXPECT_TRUE(uncertain.within_errors_and_drift);
+  EXPECT_FALSE(uncertain.little_to_gain());
+}
+
 // The lever arm of a session is not known without its only drive, so it is fitted to that drive.
 TEST(CrossValidation, HoldsOutTheOnlyDriveOfASession) {
   DriveModel model = astro_drive();
