@@ -160,7 +160,8 @@ class Offsets {
         static_cast<std::size_t>(std::ceil(std::max(kShortestBlock_s, span_s / kMostBlocks) / bin_s_));
     block_s_ = static_cast<double>(bins) * bin_s_;
     errors_ = Errors::Zero(rows, static_cast<Eigen::Index>((truth.known.size() + bins - 1) / bins));
-    // Where the wheels' samples end without a stand, no bin comes near these zeros.
+    // A robot that stands at the end of its samples is taken to stand beyond them. Where it moves, forget_uncovered leaves out the
+    // bins that would be compared with these zeros.
     const Eigen::Index margin = rows + 1, size = std::ssize(wheels.known);
     Eigen::ArrayXd speed = Eigen::ArrayXd::Zero(size + 2 * margin), turn = speed;
     speed.segment(margin, size) = Eigen::ArrayXd::Map(wheels.speed_mps.data(), size);

@@ -13,6 +13,7 @@ namespace astro::truth {
 namespace {
 
 constexpr std::int64_t kWindow_ns = 500'000'000;  // more of a slow tracker
+constexpr double kLongestWindow_ns = 86'400e9;    // samples even further apart show no rest
 constexpr std::size_t kFewestSamples = 8;
 
 /// x, y, z, and the rotation relative to the window's first sample as a vector.
@@ -103,7 +104,8 @@ std::vector<Window> still_ones(std::vector<Window> windows) {
 ///
 /// A stretch in which the tracker repeats the same numbers (invalid samples) is no rest.
 std::optional<RestNoise> find_rest_noise(const BodyTrack& track, double period_s) {
-  const auto window_ns = std::max(kWindow_ns, static_cast<std::int64_t>(1e9 * kFewestSamples * period_s));
+  const auto window_ns = std::max(
+      kWindow_ns, static_cast<std::int64_t>(std::min(1e9 * kFewestSamples * period_s, kLongestWindow_ns)));
   const std::vector<Window> still = still_ones(windows_of(track.samples, window_ns));
   RestNoise out;
   out.rest_s = 1e-9 * static_cast<double>(window_ns) * static_cast<double>(still.size());

@@ -47,6 +47,16 @@ BodyTrack seen(int samples, RotationKind kind, const Pose3& noise, auto at) {
 
 using Place = std::pair<double, double>;  // x, yaw
 
+TEST(Inspection, ShowsNoRestBetweenSamplesThatAreDecadesApart) {
+  BodyTrack track = seen(5, RotationKind::quaternion, {1e-4, 1e-4, 1e-4, 0, 0, 1e-3, 0}, [](int) {
+    return Place{0, 0};
+  });
+  for (TrackedPose& sample : track.samples) sample.time_ns *= 200'000'000'000;
+  const BodyInspection found = inspect(track);
+  EXPECT_DOUBLE_EQ(found.median_period_s, 2e9);
+  EXPECT_FALSE(found.noise);
+}
+
 TEST(Inspection, NoiseIsThatOfTheRestsAndNotOfTheDrive) {
   BodyTrack track = seen(3000, RotationKind::quaternion, {1e-4, 2e-4, 5e-5, 0, 0, 2e-3, 0}, [](int i) {
     return Place{0.003 * std::clamp(i - 1000, 0, 1000), 0};
