@@ -52,20 +52,22 @@ std::string squares_text(const calibration::ExperimentSummary& squares) {
 std::string factors_text(const Calibration& found) {
   const experiment::FactorErrors &se = found.se, &day = found.se_another_day;
   const calibration::WheelFactors &now = found.factors, &old = found.loaded;
-  const auto off = [](double error, int decimals) {
-    return std::isfinite(error) ? "± " + known(error, decimals) : "";
+  // With as many decimals as the factor beside it.
+  const auto off = [](double error, double own, int decimals) {
+    return std::isfinite(error) ? "± " + known(error, experiment::decimals_by(own, decimals)) : "";
   };
   Rows rows{{"", "", "another day", "against loaded"},
-            {"c_R", with_error(now.c_r, se.c_r, 8), off(day.c_r, 6), percent(now.c_r / old.c_r)},
-            {"c_L", with_error(now.c_l, se.c_l, 8), off(day.c_l, 6), percent(now.c_l / old.c_l)},
-            {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), off(1000 * day.b_m, 3),
+            {"c_R", with_error(now.c_r, se.c_r, 8), off(day.c_r, se.c_r, 6), percent(now.c_r / old.c_r)},
+            {"c_L", with_error(now.c_l, se.c_l, 8), off(day.c_l, se.c_l, 6), percent(now.c_l / old.c_l)},
+            {"b mm", with_error(1000 * now.b_m, 1000 * se.b_m, 4), off(1000 * day.b_m, 1000 * se.b_m, 3),
              percent(now.b_m / old.b_m)}};
   if (found.shows_e())
-    rows.push_back({"e", with_error(now.e, se.e, 6), off(day.e, 4), fmt::format("{:+.6f}", now.e - old.e)});
-  rows.insert(rows.end(), {{"S", with_error(found.scale(), se.scale, 8), off(day.scale, 6),
+    rows.push_back(
+        {"e", with_error(now.e, se.e, 6), off(day.e, se.e, 4), fmt::format("{:+.6f}", now.e - old.e)});
+  rows.insert(rows.end(), {{"S", with_error(found.scale(), se.scale, 8), off(day.scale, se.scale, 6),
                             percent(found.scale_change())},
-                           {"E_d", with_error(found.E_d(), se.E_d, 7), off(day.E_d, 6), ""},
-                           {"E_b", with_error(found.E_b(), se.E_b, 7), off(day.E_b, 6), ""}});
+                           {"E_d", with_error(found.E_d(), se.E_d, 7), off(day.E_d, se.E_d, 6), ""},
+                           {"E_b", with_error(found.E_b(), se.E_b, 7), off(day.E_b, se.E_b, 6), ""}});
   return console::table(rows);
 }
 

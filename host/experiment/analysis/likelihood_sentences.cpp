@@ -50,9 +50,14 @@ std::string session_text(const MlResult& ml, int session) {
 
 }  // namespace
 
+int decimals_by(double error, int decimals) {
+  if (!std::isfinite(error) || !(error > 0)) return decimals;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+}
+
 std::string with_error(double value, double error, int decimals) {
   if (!std::isfinite(error)) return fmt::format("{:.{}f}", without_minus_zero(value, decimals), decimals);
-  if (error > 0) decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+  decimals = decimals_by(error, decimals);
   return fmt::format("{:.{}f} ± {:.{}f}", without_minus_zero(value, decimals), decimals, error, decimals);
 }
 

@@ -34,6 +34,9 @@ std::string noise_sentence(const MlResult& ml);
 /// What does not fit, or one sentence that everything fits. Without final full stops.
 std::vector<Remark> verdict(const MlResult& ml);
 
+/// As many as show two digits of the error; `decimals` where it is not known.
+int decimals_by(double error, int decimals);
+
 /// "1.23 ± 0.45": two digits of the error, `decimals` where it is not known.
 std::string with_error(double value, double error, int decimals);
 
