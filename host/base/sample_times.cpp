@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <deque>
-#include <limits>
 #include <utility>
 
 #include "host/base/order_statistics.hpp"
@@ -17,13 +17,11 @@ using Times = std::vector<std::int64_t>;
 
 constexpr std::size_t kFewest = 20;
 constexpr double kLongestDelay_ns = 1e9;
-// A file may hold any times: their differences and sums must be numbers.
-constexpr std::int64_t kMost_ns = std::numeric_limits<std::int64_t>::max() / 4;
 
 bool can_be_mended(const Times& times) {
   if (times.size() < kFewest) return false;
   const auto [least, most] = std::ranges::minmax(times);
-  return least >= -kMost_ns && most <= kMost_ns;
+  return least >= -kMostTime_ns && most <= kMostTime_ns;
 }
 
 double seconds(double ns) { return 1e-9 * ns; }
@@ -69,8 +67,8 @@ Repeated repeated_at(const Times& times, std::size_t at) {
 
 /// Where the clock was set back.
 struct SetBacks {
-  std::vector<std::pair<std::size_t, std::int64_t>> steps;  // the first sample after each, and by how much
-  std::optional<std::size_t> begins_again;                  // instead: the first sample of another recording
+  std::vector<ClockSetting> settings;
+  std::optional<std::size_t> begins_again;  // instead: the first sample of another recording
 };
 
 /// A fall counts if the samples about it are as many before as after it as a clock gives in that time. Where nearly all samples
@@ -92,33 +90,9 @@ SetBacks set_backs_of(const Times& times) {
       return found;
     }
     if (repeated.after < wanted) continue;
-    found.steps.emplace_back(i, fall_ns + std::llround(period_ns));
+    found.settings.push_back({i, -(fall_ns + std::llround(period_ns))});
   }
   return found;
-}
-
-bool set_on(Times& times, const std::string& what, std::vector<Remark>& remarks) {
-  constexpr std::size_t kMostSteps = 8;
-  const auto [steps, begins_again] = set_backs_of(times);
-  std::int64_t late_ns = 0;
-  for (const auto& [at, by_ns] : steps) late_ns += std::min(by_ns, kMost_ns - late_ns);
-  if (begins_again || steps.size() > kMostSteps || late_ns == kMost_ns) return false;
-  late_ns = 0;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (next < steps.size() && steps[next].first == i) {
-      const std::string by = fmt::format("{:.2f}", seconds(static_cast<double>(steps[next].second))),
-                        at = fmt::format("{:.1f}", seconds(static_cast<double>(times[i - 1] - times[0])));
-      remarks.push_back(
-          {fmt::format("the clock of {} was set back by {} s at {} s: what follows was set on by as much",
-                       what, by, at),
-           TimesRemark::clock_set_back,
-           {what, by, at}});
-      late_ns += steps[next++].second;
-    }
-    times[i] += late_ns;
-  }
-  return !steps.empty();
 }
 
 /// Whether many samples come right after the one before, and some long after it.
@@ -180,11 +154,43 @@ void even_out(Times& times, const std::string& what, std::vector<Remark>& remark
        {what, most}});
 }
 
+Remark why_set(const ClockSetting& setting, double after_ns, const std::string& what,
+               const std::string& how_known) {
+  const bool on = setting.by_ns > 0;
+  const std::string by = fmt::format("{:.2f}", std::abs(seconds(static_cast<double>(setting.by_ns)))),
+                    at = fmt::format("{:.1f}", seconds(after_ns));
+  return {fmt::format("the clock of {} was set {} by {} s at {} s{}: what follows was set {} by as much",
+                      what, on ? "on" : "back", by, at, how_known, on ? "back" : "on"),
+          on ? TimesRemark::clock_set_on : TimesRemark::clock_set_back,
+          {what, by, at}};
+}
+
 }  // namespace
+
+bool take_back(std::span<const ClockSetting> settings, const std::string& what, const std::string& how_known,
+               std::vector<std::int64_t>& times_ns, std::vector<Remark>& remarks) {
+  if (settings.size() > kMostClockSettings) return false;
+  std::int64_t late_ns = 0;
+  for (const ClockSetting& setting : settings) {
+    late_ns += setting.by_ns;
+    if (std::abs(late_ns) >= kMostTime_ns) return false;
+  }
+  late_ns = 0;
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    const std::size_t at = settings[k].at;
+    remarks.push_back(
+        why_set(settings[k], static_cast<double>(times_ns[at - 1] - times_ns.front()), what, how_known));
+    late_ns += settings[k].by_ns;
+    const std::size_t end = k + 1 < settings.size() ? settings[k + 1].at : times_ns.size();
+    for (std::size_t i = at; i < end; ++i) times_ns[i] -= late_ns;
+  }
+  return !settings.empty();
+}
 
 bool mend_times(std::vector<std::int64_t>& times_ns, const std::string& what, std::vector<Remark>& remarks) {
   if (!can_be_mended(times_ns)) return false;
-  const bool stepped = set_on(times_ns, what, remarks);
+  const SetBacks found = set_backs_of(times_ns);
+  const bool stepped = !found.begins_again && take_back(found.settings, what, "", times_ns, remarks);
   even_out(times_ns, what, remarks);
   return stepped;
 }

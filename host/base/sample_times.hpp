@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,25 @@ namespace astro {
 /// What was mended of a stream's times. Values: the stream; then for clock_set_back and clock_set_on by how many seconds and
 /// after how many seconds of the stream, for clock_set_often how many times, for bursts_evened the longest delay in seconds.
 enum class TimesRemark { clock_set_back, clock_set_on, clock_set_often, bursts_evened };
+
+/// A file may hold any times. Sums and differences of a few times up to this one are numbers.
+inline constexpr std::int64_t kMostTime_ns = std::numeric_limits<std::int64_t>::max() / 4;
+
+/// A moment at which the clock of a stream was set.
+struct ClockSetting {
+  std::size_t at = 0;      // the first sample after it
+  std::int64_t by_ns = 0;  // above 0: on; below 0: back
+};
+
+/// The most settings of one stream that are taken back.
+inline constexpr std::size_t kMostClockSettings = 8;
+
+/// Sets the times after each setting by as much the other way, with a remark for each, and returns whether there were any. Changes
+/// nothing if there are more than kMostClockSettings, or if they add up to more than kMostTime_ns.
+///
+/// `settings`: in the order of the samples. `how_known`: a clause for the remarks, as ", as their arrival shows"; may be empty.
+bool take_back(std::span<const ClockSetting> settings, const std::string& what, const std::string& how_known,
+               std::vector<std::int64_t>& times_ns, std::vector<Remark>& remarks);
 
 /// Mends `times_ns`, and adds a remark for each thing that was done. `what` names the stream: "the wheels". Returns whether the
 /// clock had been set back.

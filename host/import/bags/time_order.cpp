@@ -41,18 +41,13 @@ std::optional<std::int64_t> least_delay_ns(Times stamps_ns, Times arrivals_ns, s
   return looked_at >= kEnough ? least : std::nullopt;
 }
 
-struct StampStep {
-  std::size_t at = 0;  // the first message after it
-  std::int64_t by_ns = 0;
-};
-
-std::vector<StampStep> steps_of(Times stamps_ns, Times arrivals_ns) {
+std::vector<ClockSetting> steps_of(Times stamps_ns, Times arrivals_ns) {
   constexpr std::int64_t kSmallest_ns = 60'000'000, kAlike_ns = 30'000'000, kShortestPause_ns = 500'000'000;
   constexpr std::size_t kMostLeaps =
       1000;  // a clock has no more; it also bounds the time that a hostile bag takes
   const std::int64_t usual_ns = usual_period_ns(stamps_ns),
                      smallest_ns = std::max(kSmallest_ns, usual_ns / 2);
-  std::vector<StampStep> steps;
+  std::vector<ClockSetting> steps;
   std::size_t leaps = 0;
   for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
     const std::int64_t by_ns = stamps_ns[i] - stamps_ns[i - 1] - usual_ns;
@@ -72,37 +67,20 @@ std::vector<StampStep> steps_of(Times stamps_ns, Times arrivals_ns) {
   return steps;
 }
 
-// A bag may hold any times: the sums and differences of two must be numbers.
-constexpr std::int64_t kMost_ns = std::numeric_limits<std::int64_t>::max() / 4;
-
 /// Whether all times are possible, and the messages are in the order of their arrival.
 bool can_be_compared(Times stamps_ns, Times arrivals_ns) {
-  const auto is_possible = [](std::int64_t time_ns) { return std::abs(time_ns) < kMost_ns; };
+  const auto is_possible = [](std::int64_t time_ns) { return std::abs(time_ns) < kMostTime_ns; };
   return stamps_ns.size() == arrivals_ns.size() && std::ranges::is_sorted(arrivals_ns) &&
          std::ranges::all_of(stamps_ns, is_possible) && std::ranges::all_of(arrivals_ns, is_possible);
-}
-
-Remark why_stepped(const std::string& what, std::int64_t by_ns, std::int64_t after_ns) {
-  const bool on = by_ns > 0;
-  const std::string by = fmt::format("{:.2f}", std::abs(seconds_of(by_ns))),
-                    at = fmt::format("{:.1f}", seconds_of(after_ns));
-  return {
-      fmt::format(
-          "the clock of {} was set {} by {} s at {} s, as their arrival shows: what follows was set {} by "
-          "as much",
-          what, on ? "on" : "back", by, at, on ? "back" : "on"),
-      on ? TimesRemark::clock_set_on : TimesRemark::clock_set_back,
-      {what, by, at}};
 }
 
 }  // namespace
 
 bool take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const std::int64_t> arrivals_ns,
                            const std::string& what, std::vector<Remark>& remarks) {
-  constexpr std::size_t kMostSteps = 8;
   if (!can_be_compared(stamps_ns, arrivals_ns)) return false;
-  const std::vector<StampStep> steps = steps_of(stamps_ns, arrivals_ns);
-  if (steps.size() > kMostSteps) {
+  const std::vector<ClockSetting> steps = steps_of(stamps_ns, arrivals_ns);
+  if (steps.size() > kMostClockSettings) {
     const std::string times = std::to_string(steps.size());
     remarks.push_back(
         {fmt::format("the clock of {} was set {} times, as their arrival shows: their times are "
@@ -113,19 +91,7 @@ bool take_clock_steps_back(std::vector<std::int64_t>& stamps_ns, std::span<const
     stamps_ns.assign(arrivals_ns.begin(), arrivals_ns.end());
     return true;
   }
-  std::int64_t late_ns = 0;
-  for (const StampStep& step : steps) {
-    if (std::abs(late_ns) > kMost_ns) return false;
-    late_ns += step.by_ns;
-  }
-  late_ns = 0;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    remarks.push_back(why_stepped(what, steps[k].by_ns, stamps_ns[steps[k].at - 1] - stamps_ns.front()));
-    late_ns += steps[k].by_ns;
-    const std::size_t end = k + 1 < steps.size() ? steps[k + 1].at : stamps_ns.size();
-    for (std::size_t i = steps[k].at; i < end; ++i) stamps_ns[i] -= late_ns;
-  }
-  return !steps.empty();
+  return take_back(steps, what, ", as their arrival shows", stamps_ns, remarks);
 }
 
 void refuse_second_recording(const std::vector<std::int64_t>& times_ns, const std::string& file,
