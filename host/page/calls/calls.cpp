@@ -35,7 +35,7 @@ json answer(const std::string& call, const json& question, const std::filesystem
       return {{"result", each.answer(question, folder, emit)}};
     } catch (const Error& error) {
       return refusal(error.what(), error.values());
-    } catch (const json::exception& error) {
+    } catch (const std::exception& error) {  // of a file, or of JSON
       return refusal(error.what());
     }
   }

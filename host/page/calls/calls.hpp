@@ -13,7 +13,7 @@ namespace astro::page {
 using Emit = std::function<void(const nlohmann::json&)>;
 
 /// Answers {"result": ...} or, if the call cannot be done, {"error": {"sentence": ..., "values": [...]}}. Throws nothing but
-/// what `emit` throws.
+/// what `emit` throws that is no std::exception.
 ///
 /// `folder`  where files are read and written; paths in questions and answers are relative to it.
 nlohmann::json answer(const std::string& call, const nlohmann::json& question,

@@ -18,9 +18,9 @@ namespace astro::page {
 ///             runs  squares in each direction and phase
 /// events    {"event": "run", "title", "phase", "number", "total"} when a drive begins;
 ///           {"event": "way", "odometry": [x, y, ...], "truth": [x, y, ...]}, m, in the frame of the robot's start of this drive;
-///           {"event": "calibrated", "factors": {...}} before the robot drives again
+///           {"event": "calibrated", "calibration": what `calibrate --json` prints} before the robot drives again
 /// answer    {"results": what `umbmark --json` prints, "built": the factors that would be exact,
-///            "report": the file of the report}
+///            "verdict": a paragraph, "report": the file of the report}
 ///
 /// Throws astro::Error for sizes that no robot has, and what run_experiment throws.
 nlohmann::json try_out(const nlohmann::json& question, const std::filesystem::path& folder, const Emit& emit);

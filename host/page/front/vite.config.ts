@@ -4,6 +4,6 @@ import { defineConfig } from "vite";
 export default defineConfig({
   base: "./",
   esbuild: { jsx: "automatic", jsxImportSource: "preact" },
-  build: { target: "es2022", outDir: process.env.ASTROLABE_PAGE_OUT ?? "dist", emptyOutDir: false },
+  build: { target: "es2022", outDir: process.env.ASTROLABE_PAGE_OUT ?? "dist", emptyOutDir: true },
   worker: { format: "es" },
 });

@@ -10,7 +10,7 @@ packages=(bzip2=1.0.8-5 libyaml=0.2.5-1 libzstd=1.5.4+dfsg2-5 lz4=1.9.4-1 sqlite
   zlib=1:1.2.13.dfsg-1)
 [[ -e done && $(<done) == "${packages[*]}" ]] && exit
 
-rm -rf ./*
+rm -rf -- *-src *.dsc *.tar.* *.asc apt done
 mkdir -p apt/lists/partial apt/archives/partial
 sed -n '/^Types:/,/^$/p' /etc/apt/sources.list.d/*.sources 2>/dev/null | sed 's/^Types:.*/Types: deb-src/' >apt/all.sources || true
 sed -n 's/^deb /deb-src /p' /etc/apt/sources.list 2>/dev/null >apt/all.list || true

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -96,6 +97,13 @@ TEST(TryOut, ARobotThatNobodyBuildsIsRefusedInASentence) {
   EXPECT_EQ(sentence({{"slip", -1}}), "slip is -1, and must be from 0 to 1000");
   EXPECT_EQ(sentence({{"seed", nullptr}}), "seed is no number");
   EXPECT_EQ(sentence("E_d"), "the question is no object");
+}
+
+TEST(Calls, AFolderThatCannotBeWrittenIsToldLikeAnyOtherRefusal) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "file") << "in the way";
+  const Asked asked = ask("try_out", question(1, 1), folder.path() / "file");
+  EXPECT_THAT(asked.answer.at("error").at("sentence").get<std::string>(), HasSubstr("try-1"));
 }
 
 TEST(Calls, AnUnknownOneIsNamed) {
