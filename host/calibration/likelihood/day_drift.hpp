@@ -17,8 +17,8 @@ enum Ratio { kRatio, kScale, kBaseOverScale, kRatioE };
 /// Relative changes of E_d, S and b / S, and the change of e, by those of the factors.
 FactorMatrix ratios_by_factors(const WheelFactors& factors);
 
-/// Standard deviations of the difference between two days: of E_d = c_R / c_L, of S = (c_R + c_L) / 2 and of b / S, relative, and of e,
-/// which change independently. The defaults are those of real robots: one had an E_d of 0.99892 and ten days later of 0.99946; S and
+/// Standard deviations of the difference between two days: of E_d = c_R / c_L, of S = (c_R + c_L) / 2 and of b / S, relative, and of
+/// e. All four change independently. The defaults are those of real robots: one had an E_d of 0.99892 and ten days later of 0.99946; S and
 /// b / S change less, and 3e-4 is an assumption. No change of e was seen, and no e is known better than to 0.003.
 struct DayDrift {
   double E_d = 5e-4, scale = 3e-4, b_over_scale = 3e-4, e = 3e-3;
@@ -33,13 +33,14 @@ struct DayDrift {
 /// anew, and a folder or a clock begun, in the middle of one. All runs are of one day unless the dates of all are known.
 std::vector<int> find_days(std::span<const PreparedRun> runs);
 
-/// From the spread between the days of `drives` beyond what their noise explains; the defaults count like four days more, because
-/// two alone say little. A day that leaves one of the ratios open does not count. The noise is not widened (MlEstimate::widening), because runs of different days scatter for this very reason.
+/// From the spread between the days of `drives` beyond what their noise explains. The defaults count like four days more, because
+/// two days alone say little. A day that leaves one of the ratios open does not count. The noise is not widened
+/// (MlEstimate::widening), because runs of different days scatter for this very reason.
 DayDrift drift_between_days(std::span<const InnovationSums> drives, std::span<const int> days,
                             const FixedParameters& fixed, const PriorOfE& prior, const WheelFactors& factors);
 
-/// The covariance of the factors found less those of another day: the drives' own noise, what the days of these drives differ by
-/// from the mean of all days, and what the other day does.
+/// The covariance of the factors found minus those of another day. It has three parts: the drives' own noise, how far the days of
+/// these drives are off the mean of all days, and how far the other day is.
 FactorMatrix covariance_on_another_day(std::span<const InnovationSums> drives, std::span<const int> days,
                                        const FixedParameters& fixed, const PriorOfE& prior,
                                        const WheelFactors& factors, const FactorMatrix& own,

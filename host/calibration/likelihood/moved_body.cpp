@@ -16,7 +16,8 @@ namespace {
 constexpr double kSame_m = 0.01, kSame_rad = 0.02;
 // A gain by chance: squared standard errors of one place, and for each run what the best of all groupings gains.
 constexpr double kUnlikely = 25, kUnlikelyOfRun = 2;
-// Places that differ a little from run to run, as slip lets them seem, are not two places: the best two explain two thirds.
+// Slip makes the place seem to differ a little from run to run. The best two places then explain two thirds of what a place for
+// each run would; two real places explain more than this share.
 constexpr double kExplained = 0.8;
 constexpr std::size_t kMostSessions = 30;
 

@@ -66,8 +66,7 @@ std::string judgement_sentence(const CrossValidation& judgement) {
   return fmt::format(
       "{}ot shown to be better than what the robot carries: {}. Keep what it carries.{}",
       judgement.within_drift ? "There is little to gain, because what was found differs from what the robot "
-                               "carries by less than "
-                               "robots change from day to day: n"
+                               "carries by less than robots change from day to day: n"
       : judgement.within_errors_and_drift
           ? "What was found differs from what the robot carries by no more than these drives leave open and "
             "robots change by from day to day: n"
@@ -84,15 +83,13 @@ std::string drift_sentence(const calibration::DayDrift& drift) {
   if (drift.days < 2)
     return fmt::format(
         "From one day to another real robots change by about as much as this: {}, and e by {:.1g}. It is "
-        "part "
-        "of the errors on another day, and is taken from other robots, because these drives are not known to "
-        "be of several days.",
+        "part of the errors on another day, and is taken from other robots, because these drives are not "
+        "known to be of several days.",
         ratios, drift.e);
   return fmt::format(
       "From one day to another this robot changes by about as much as this: {}. It is part of the errors on "
       "another day, and was estimated from {} days and from other robots, which count like four. For e, "
-      "{:.1g} "
-      "is taken from other robots.",
+      "{:.1g} is taken from other robots.",
       ratios, drift.days, drift.e);
 }
 

@@ -72,9 +72,9 @@ struct ExperimentHooks {
 /// The whole experiment with one robot: squares, calibration, upload, squares again. Runs that are recorded in
 /// `folder` are not driven again, so an experiment that was stopped resumes where it was.
 ///
-/// Throws astro::Error if the folder holds another plan or another robot's experiment, if the robot's
-/// parameters are not those of the phase under way or lack an e that will be found, if there are objections to the upload or it is put off; and what
-/// record_run throws.
+/// Throws astro::Error if the folder holds another plan or another robot's experiment, if the robot's parameters are not those of
+/// the phase under way or lack an e that will be found, if there are objections to the upload or it is put off; and what record_run
+/// throws.
 Results run_experiment(robot::Client& client, truth::Source& truth, const Plan& plan,
                        const std::filesystem::path& folder, const ExperimentHooks& hooks);
 

@@ -71,8 +71,8 @@ class TrackBuilder {
 
   /// A sample with a stamp, whose faults finish() mends. Throws only for too many samples.
   void add_stamped(const TrackedPose& sample, const tables::Rows& rows);
-  /// Mends the times (host/formats/tables/row_times.hpp), and leaves out samples that repeat one. A remark says what was done. Throws astro::Error with file and line for times that fall
-  /// otherwise, and naming `file` if many times repeat, and not evenly.
+  /// Mends the times (host/formats/tables/row_times.hpp), and leaves out samples that repeat one. A remark says what was done.
+  /// Throws astro::Error with file and line for times that fall otherwise, and naming `file` if many times repeat, and not evenly.
   void finish(std::string_view file);
 
  private:
