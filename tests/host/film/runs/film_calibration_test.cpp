@@ -11,7 +11,7 @@
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/film/runs/film_truth.hpp"
-#include "tests/support/base/places.hpp"
+#include "tests/host/film/recorded_film.hpp"
 #include "tests/support/base/thorough.hpp"
 
 /// Drives that a film shows, calibrated from it and from the true poses.
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path camera_data() { return support::shared_data() / "camera"; }
+using support::camera_data;
 
 std::vector<recording::TruthSample> true_poses() {
   std::ifstream file(camera_data() / "truth" / "truth_poses.csv");
@@ -49,23 +49,15 @@ experiment::RunSet with_true_poses(experiment::RunSet set) {
   return set;
 }
 
-film::FilmFigures stated_figures() {
-  film::FilmFigures figures;
-  figures.floor_side_m = 0.160;
-  figures.robot_side_m = 0.1201;
-  figures.robot_height_m = 0.121;
-  figures.tapes = {{1, 4, 3.460}};
-  return figures;
-}
-
 TEST(FilmCalibration, FindsWhatTheTruePosesFind) {
   if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
-  if (!fs::exists(camera_data() / "dev.mp4")) GTEST_SKIP() << "the film is not beside this checkout";
+  if (!fs::exists(support::recorded_film())) GTEST_SKIP() << "the film is not beside this checkout";
   experiment::RunSet set = experiment::read_run_set(camera_data() / "runs");
   const experiment::Calibration exact =
       experiment::calibrate(with_true_poses(set), {experiment::MethodChoice::Family::ml, {}});
-  const FilmReport report = attach_films(
-      set, {{"dev.mp4", film::follow_film(camera_data() / "dev.mp4", stated_figures())}}, std::nullopt);
+  const FilmReport report =
+      attach_films(set, {{"dev.mp4", film::follow_film(support::recorded_film(), support::stated_figures())}},
+                   std::nullopt);
   const experiment::Calibration found =
       experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}});
   const double ratio = found.E_d() / exact.E_d() - 1;

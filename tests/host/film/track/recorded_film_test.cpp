@@ -12,26 +12,15 @@
 
 #include "host/base/error.hpp"
 #include "host/film/track/film_track.hpp"
-#include "tests/support/base/places.hpp"
+#include "tests/host/film/recorded_film.hpp"
 
 /// The whole way on a film whose truth is known.
 namespace astro::film {
-
 namespace {
 
-/// A film of a robot whose true path is known, which lies beside a developer's checkout only; "" if it is not there.
-std::filesystem::path recorded_film() {
-  const std::filesystem::path film = support::shared_data() / "camera" / "dev.mp4";
-  return std::filesystem::exists(film) ? film : "";
-}
-
-/// What its user would state.
-film::FilmFigures stated_figures() {
-  film::FilmFigures figures;
-  figures.floor_side_m = 0.160;
-  figures.robot_side_m = 0.1201;
-  figures.robot_height_m = 0.121;
-  figures.tapes = {{1, 4, 3.460}};
+/// With the readout time that its user would state.
+FilmFigures figures_with_readout() {
+  FilmFigures figures = support::stated_figures();
   figures.readout_s = 0.018;
   return figures;
 }
@@ -42,7 +31,7 @@ struct TrueFrame {
 
 /// The true pose of the tag when the first row of each picture was exposed.
 std::vector<TrueFrame> true_frames() {
-  std::ifstream file(recorded_film().parent_path() / "truth" / "truth_frames.csv");
+  std::ifstream file(support::camera_data() / "truth" / "truth_frames.csv");
   std::vector<TrueFrame> frames;
   std::string line;
   std::getline(file, line);
@@ -116,8 +105,9 @@ PoseErrors compare(const std::vector<film::FilmPose>& poses, const std::vector<T
 }
 
 TEST(RecordedFilm, ShowsPosesToAQuarterOfAMillimetre) {
-  if (recorded_film().empty()) GTEST_SKIP() << "the film is not beside this checkout";
-  const FilmTrack track = follow_film(recorded_film(), stated_figures());
+  if (!std::filesystem::exists(support::recorded_film()))
+    GTEST_SKIP() << "the film is not beside this checkout";
+  const FilmTrack track = follow_film(support::recorded_film(), figures_with_readout());
   const std::vector<TrueFrame> frames = true_frames();
   const PoseErrors errors = compare(track.found.poses, frames);
   std::cout << "position " << 1e3 * errors.position_m << " mm, heading " << 1e3 * errors.heading_rad
@@ -142,5 +132,4 @@ TEST(RecordedFilm, ShowsPosesToAQuarterOfAMillimetre) {
 }
 
 }  // namespace
-
 }  // namespace astro::film
