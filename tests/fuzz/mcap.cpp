@@ -59,7 +59,7 @@ Bytes chunk_of(const Run& run) {
   topic(2, "/wheel_counts", recording::wheel_counts_type());
   topic(3, "/truth", ros2::pose_stamped_type());
   const auto message = [&](std::uint16_t channel, const Bytes& data) {
-    mcap::append_record(chunk, mcap::Op::message, mcap::encode(mcap::Message{channel, 0, 0, 0, data}));
+    mcap::append_message(chunk, {channel, 0, 0, 0, data});
   };
   for (const OdometrySample& sample : run.odometry) {
     message(1, recording::encode_odometry(sample));

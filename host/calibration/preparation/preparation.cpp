@@ -418,16 +418,19 @@ Clocked clocked(const Trajectory& run, const WheelFactors& loaded, const std::op
   }
 }
 
-void require_clock(const Trajectory& run, const ClockFit& clock) {
+Remark why_unsettled(const Trajectory& run, const ClockFit& clock) {
+  return {fmt::format("{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s",
+                      run.name, clock.offset_s, *clock.rival_offset_s),
+          PreparationProblem::clock_unsettled,
+          {run.name}};
+}
+
+void require_in_common(const Trajectory& run, const ClockFit& clock) {
   if (!in_common(clock))
     throw Error(
         run.name +
             ": the motions of wheels and ground truth have nothing in common at any offset of their clocks",
         PreparationProblem::nothing_in_common, {run.name});
-  if (clock.rival_offset_s && clock.correlation >= kLeastCorrelation)
-    throw Error(fmt::format("{} repeats itself, so that its clocks may be {:.1f} s apart as well as {:.1f} s",
-                            run.name, clock.offset_s, *clock.rival_offset_s),
-                PreparationProblem::clock_unsettled, {run.name});
 }
 
 }  // namespace
@@ -442,12 +445,15 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
     Clocked found;
     if (!clock_known) {
       found = clocked(recorded, loaded, before);
-      if (is_blind_spin(recorded, found.clock, loaded.b_m)) found.useless = why_blind(recorded);
+      if (is_blind_spin(recorded, found.clock, loaded.b_m))
+        found.useless = why_blind(recorded);
+      else if (found.clock.rival_offset_s && found.clock.correlation >= kLeastCorrelation)
+        found.useless = why_unsettled(recorded, found.clock);
       if (found.useless) {
         prepared.left_out.push_back(*found.useless);
         continue;
       }
-      require_clock(recorded, found.clock);
+      require_in_common(recorded, found.clock);
       before = found.clock;
       prepared.mended.insert(prepared.mended.end(), found.mended.begin(), found.mended.end());
     }

@@ -4,7 +4,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "host/base/bytes.hpp"
 
@@ -26,12 +29,12 @@ class CdrWriter {
  public:
   template <Number T>
   void number(T value) {
-    while ((bytes_.size() - kCdrHeaderBytes) % sizeof(T) != 0) bytes_.push_back(0);
+    align(sizeof(T));
     append(bytes_, value);
   }
   /// Numbers of `size` bytes each that are little-endian already.
   void numbers(ByteView raw, std::size_t size) {
-    while (!raw.empty() && (bytes_.size() - kCdrHeaderBytes) % size != 0) bytes_.push_back(0);
+    if (!raw.empty()) align(size);
     append(bytes_, raw);
   }
   void string(std::string_view text) {
@@ -39,9 +42,15 @@ class CdrWriter {
     append(bytes_, as_bytes(text));
     bytes_.push_back(0);
   }
-  const Bytes& bytes() const { return bytes_; }
+  const Bytes& bytes() const& { return bytes_; }
+  Bytes bytes() && { return std::move(bytes_); }
 
  private:
+  void align(std::size_t size) {
+    if (const std::size_t over = (bytes_.size() - kCdrHeaderBytes) % size; over != 0)
+      bytes_.resize(bytes_.size() + size - over);
+  }
+
   Bytes bytes_{0, 1, 0, 0};
 };
 
@@ -71,6 +80,19 @@ class CdrReader {
     std::copy(raw.begin(), raw.end(), bytes.begin());
     if (big_endian_) std::reverse(bytes.begin(), bytes.end());
     return std::bit_cast<T>(bytes);
+  }
+
+  /// Fills `values`; leaves them as they are if the message is too short.
+  template <Number T>
+  void numbers(std::span<T> values) {
+    if (big_endian_) {
+      for (T& value : values) value = number<T>();
+      return;
+    }
+    if (values.empty()) return;
+    align(sizeof(T));
+    if (const ByteView raw = cursor_.take(values.size_bytes()); ok())
+      std::memcpy(values.data(), raw.data(), raw.size());
   }
 
   /// Skips `count` numbers of one type.

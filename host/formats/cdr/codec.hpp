@@ -39,9 +39,17 @@ void put_fields(CdrWriter& out, const M& message) {
     for_each_field(message, [&](std::string_view, const auto& field) { put(out, field); });
 }
 
+/// Whether elements stand in memory as in a message, so that all are copied at once. vector<bool> has no elements in memory.
+template <class T>
+inline constexpr bool kIsPlainNumber = Number<T> && !std::is_same_v<T, bool>;
+
 template <class List>
 void put_each(CdrWriter& out, const List& list) {
-  for (const auto& each : list) put(out, each);
+  using T = typename List::value_type;
+  if constexpr (kIsPlainNumber<T>)
+    out.numbers({reinterpret_cast<const std::uint8_t*>(list.data()), list.size() * sizeof(T)}, sizeof(T));
+  else
+    for (const auto& each : list) put(out, each);
 }
 
 template <class T>
@@ -74,6 +82,11 @@ template <class T>
 void take_sequence(CdrReader& in, std::vector<T>& list) {
   const std::size_t length = in.length(least_bytes<T>());
   list.clear();
+  if constexpr (kIsPlainNumber<T>) {
+    list.resize(length);
+    in.numbers(std::span<T>(list));
+    return;
+  }
   list.reserve(length);
   for (std::size_t i = 0; i < length && in.ok(); ++i) {
     T each{};
@@ -110,7 +123,10 @@ void take(CdrReader& in, T& value) {
     value.text = in.string();
     if (value.text.size() > IsBoundedText<T>::kMost) in.refuse();
   } else if constexpr (IsArray<T>::value) {
-    for (auto& each : value) take(in, each);
+    if constexpr (kIsPlainNumber<typename T::value_type>)
+      in.numbers(std::span<typename T::value_type>(value));
+    else
+      for (auto& each : value) take(in, each);
   } else if constexpr (IsOptional<T>::value) {
     take_optional(in, value);
   } else {
@@ -122,7 +138,7 @@ template <Message M>
 Bytes encode(const M& message) {
   CdrWriter out;
   put(out, message);
-  return out.bytes();
+  return std::move(out).bytes();
 }
 
 /// Nothing if the bytes are too short for the type, or hold a string or a sequence that does not fit it. In memory a message

@@ -33,6 +33,11 @@ Map take_map(ByteCursor& cursor) {
   return map;
 }
 
+void append_head(Bytes& to, Op op, std::uint64_t size) {
+  to.push_back(static_cast<std::uint8_t>(op));
+  append(to, size);
+}
+
 template <class T>
 std::optional<T> if_whole(const ByteCursor& cursor, T&& record) {
   if (!cursor.ok()) return std::nullopt;
@@ -46,9 +51,19 @@ void append_string(Bytes& to, std::string_view text) {
   append(to, as_bytes(text));
 }
 
+void append_message(Bytes& to, const Message& message) {
+  constexpr std::size_t kFieldBytes = sizeof message.channel_id + sizeof message.sequence +
+                                      sizeof message.log_time_ns + sizeof message.publish_time_ns;
+  append_head(to, Op::message, kFieldBytes + message.data.size());
+  append(to, message.channel_id);
+  append(to, message.sequence);
+  append(to, message.log_time_ns);
+  append(to, message.publish_time_ns);
+  append(to, message.data);
+}
+
 std::uint64_t append_record(Bytes& to, Op op, ByteView content) {
-  to.push_back(static_cast<std::uint8_t>(op));
-  append(to, std::uint64_t{content.size()});
+  append_head(to, op, content.size());
   append(to, content);
   return kRecordHeadBytes + content.size();
 }
@@ -76,16 +91,6 @@ Bytes encode(const Channel& channel) {
   append_string(out, channel.topic);
   append_string(out, channel.message_encoding);
   append_map(out, channel.metadata);
-  return out;
-}
-
-Bytes encode(const Message& message) {
-  Bytes out;
-  append(out, message.channel_id);
-  append(out, message.sequence);
-  append(out, message.log_time_ns);
-  append(out, message.publish_time_ns);
-  append(out, message.data);
   return out;
 }
 

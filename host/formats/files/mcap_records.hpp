@@ -78,12 +78,13 @@ struct Footer {
 Bytes encode(const Header& header);
 Bytes encode(const Schema& schema);
 Bytes encode(const Channel& channel);
-Bytes encode(const Message& message);
 Bytes encode(const Metadata& metadata);
 Bytes encode(const Chunk& chunk);
 
 /// Appends one whole record and returns its length.
 std::uint64_t append_record(Bytes& to, Op op, ByteView content);
+/// Appends one whole record; messages are most of a file, so theirs is made in place.
+void append_message(Bytes& to, const Message& message);
 void append_string(Bytes& to, std::string_view text);
 
 /// Decode contents; nothing if a field reaches past the end. Additional fields at the end are ignored, as the

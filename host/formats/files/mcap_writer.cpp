@@ -53,8 +53,7 @@ std::uint16_t McapWriter::add_channel(std::uint16_t schema_id, std::string_view 
 void McapWriter::write(std::uint16_t channel_id, std::uint64_t time_ns, ByteView data) {
   ChannelState& state = channels_.at(channel_id - 1U);
   state.index.emplace_back(time_ns, open_.size());
-  bag::mcap::append_record(open_, Op::message,
-                           bag::mcap::encode({channel_id, state.messages++, time_ns, time_ns, data}));
+  bag::mcap::append_message(open_, {channel_id, state.messages++, time_ns, time_ns, data});
   open_span_.include(time_ns);
   file_span_.include(time_ns);
   if (open_.size() >= options_.chunk_bytes ||

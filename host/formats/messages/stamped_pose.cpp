@@ -94,6 +94,7 @@ std::optional<std::vector<StampedPose>> poses_in(std::string_view type, ByteView
 
 Bytes encode_tf(const std::vector<StampedPose>& transforms) {
   msg::TFMessage message;
+  message.transforms.reserve(transforms.size());
   for (const StampedPose& pose : transforms)
     message.transforms.push_back({{msg::to_time(pose.time_ns), pose.frame},
                                   pose.child_frame,

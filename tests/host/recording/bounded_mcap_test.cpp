@@ -142,8 +142,7 @@ TEST(BoundedMcap, SamplesThatPackFarBetterThanAnyDriveAreRefused) {
   bag::mcap::append_record(definitions, bag::mcap::Op::channel,
                            bag::mcap::encode(bag::mcap::Channel{1, 1, "/truth", "cdr", {}}));
   const Bytes pose = recording::encode_truth({});
-  bag::mcap::append_record(message, bag::mcap::Op::message,
-                           bag::mcap::encode(bag::mcap::Message{1, 0, 0, 0, pose}));
+  bag::mcap::append_message(message, {1, 0, 0, 0, pose});
   while (chunk.size() < 12 * kMebibyte) append(chunk, message);  // the same pose a hundred thousand times
   Bytes file = start_of_file();
   append_chunk(file, bag::compress_zstd(definitions), definitions.size());

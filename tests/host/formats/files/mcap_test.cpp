@@ -110,8 +110,7 @@ Bytes one_message() {
   Bytes records;
   bag::mcap::append_record(records, Op::channel,
                            bag::mcap::encode(bag::mcap::Channel{1, 0, "/t", "json", {}}));
-  bag::mcap::append_record(records, Op::message,
-                           bag::mcap::encode(bag::mcap::Message{1, 0, 5, 5, as_bytes("hi")}));
+  bag::mcap::append_message(records, {1, 0, 5, 5, as_bytes("hi")});
   return records;
 }
 
@@ -173,8 +172,7 @@ TEST(Mcap, UnknownRecordsAndTrailingFieldsAreSkipped) {
   channel.push_back(1);
   bag::mcap::append_record(file, Op::channel, channel);
   bag::mcap::append_record(file, static_cast<Op>(0x7F), {});
-  bag::mcap::append_record(file, Op::message,
-                           bag::mcap::encode(bag::mcap::Message{1, 0, 5, 5, as_bytes("hi")}));
+  bag::mcap::append_message(file, {1, 0, 5, 5, as_bytes("hi")});
   bag::mcap::append_record(file, Op::data_end, Bytes(7));
   bag::mcap::append_record(file, Op::footer, Bytes(24));
   append(file, ByteView(bag::mcap::kMagic));

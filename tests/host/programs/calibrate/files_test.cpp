@@ -80,6 +80,23 @@ TEST_F(Files, AreCalibratedFromOneCommandWithErrorsAndAVerdict) {
   EXPECT_TRUE(fs::exists(at("calib.toml")));
 }
 
+// The clocks of these drives are 31 ms apart, which is there to be found unless it is said that they are one clock.
+TEST_F(Files, AreTakenByOneClockIfAPersonSaysThatItIsOne) {
+  const auto clocks = [&](const std::string& said) {
+    std::vector<std::string> more = sizes();
+    more.insert(more.end(), {"--clock", said, "--json"});
+    const Outcome outcome = calibrated(4, more);
+    const nlohmann::json json = support::parse_json(outcome.out);
+    EXPECT_EQ(json["clock_known"], said == "known") << outcome.err;
+    std::vector<double> offsets_s;
+    for (const nlohmann::json& run : json["runs"]) offsets_s.push_back(run["clock_offset_s"]);
+    return offsets_s;
+  };
+  using testing::Each, testing::SizeIs;
+  EXPECT_THAT(clocks("estimated"), testing::AllOf(SizeIs(4), Each(testing::Ne(0))));
+  EXPECT_THAT(clocks("known"), testing::AllOf(SizeIs(4), Each(0)));
+}
+
 TEST_F(Files, AreCheckedWithACalibrationThatHasNotSeenThem) {
   std::vector<std::string> more = sizes();
   more.insert(more.end(), {"--out", at("calib.toml")});
