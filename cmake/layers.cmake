@@ -107,7 +107,7 @@ set(ASTRO_OUTSIDE
   "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording host/robot/port host/robot/sharing host/simulation/server host/truth/live"
   "netinet/                 : host/base"
   "csignal                  : host/console"
-  "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/recording host/robot host/simulation host/truth host/wall"
+  "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/programs host/recording host/robot host/simulation host/truth host/wall"
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/live/dds host/live/foxglove host/simulation/server host/simulation/study host/truth/live"
 
   # Files, and what is printed.

@@ -97,6 +97,10 @@ std::size_t ChildProcess::read(std::span<std::uint8_t> bytes) {
   return 0;
 }
 
+void ChildProcess::terminate() const {
+  if (pid_ > 0) kill(pid_, SIGTERM);
+}
+
 std::optional<int> ChildProcess::finish(std::chrono::milliseconds patience) {
   constexpr int kLook_ms = 2;
   int status = 0;

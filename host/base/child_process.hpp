@@ -48,6 +48,9 @@ class ChildProcess {
   /// The bytes that have come; returns their number, maybe 0.
   std::size_t read(std::span<std::uint8_t> bytes);
 
+  /// Asks the program to end by itself (SIGTERM).
+  void terminate() const;
+
   /// Waits until the program has ended, and kills it after `patience`. Closed streams do not mean that it has ended. Returns
   /// its exit status; nothing if a signal ended it.
   std::optional<int> finish(std::chrono::milliseconds patience);

@@ -78,6 +78,16 @@ Command Command::add_subcommand(const std::string& name, const std::string& what
   return Command(app_->add_subcommand(name, what));
 }
 
+void Command::under(const std::string& heading, const std::function<void()>& add) const {
+  const auto all = [](const CLI::App*) { return true; };
+  const std::size_t before = app_->get_subcommands(all).size();
+  add();
+  const std::vector<CLI::App*> now = app_->get_subcommands(std::function<bool(CLI::App*)>(all));
+  for (std::size_t i = before; i < now.size(); ++i) now[i]->group(heading);
+}
+
+void Command::alias(const std::string& name) const { app_->alias(name); }
+
 void Command::require_subcommand(std::size_t least, std::size_t most) const {
   app_->require_subcommand(least, most);
 }

@@ -80,6 +80,10 @@ class Command {
   Option add_flag(const std::string& names, bool& given, const std::string& what) const;
 
   Command add_subcommand(const std::string& name, const std::string& what) const;
+  /// The subcommands that `add` adds stand under `heading` in the help; "" keeps them out of it.
+  void under(const std::string& heading, const std::function<void()>& add) const;
+  /// Another name of the same command.
+  void alias(const std::string& name) const;
   void require_subcommand(std::size_t least, std::size_t most) const;
   /// Whether a subcommand was given.
   bool has_subcommand() const;
@@ -88,6 +92,9 @@ class Command {
   void footer(const std::string& text) const;
   /// What the command does after the whole command line was parsed.
   void callback(std::function<void()> work) const;
+
+  /// For what is made of a whole command line: help, completion, manual.
+  const CLI::App* app() const { return app_; }
 
  private:
   CLI::App* app_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/console/console.hpp"
+#include "host/console/help.hpp"
 
 namespace astro::console {
 namespace {
@@ -22,7 +23,8 @@ struct CommandContext {
 };
 
 const CLI::App* find(const CLI::App& app, std::string_view name) {
-  const auto found = app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == name; });
+  const auto found =
+      app.get_subcommands([&](const CLI::App* sub) { return sub->check_name(std::string(name)); });
   return found.empty() ? nullptr : found.front();
 }
 
@@ -150,6 +152,7 @@ void answer_no() { answer = kAnswerIsNo; }
 Program::Program(const char* name, const char* what) {
   set_program_name(name);  // first: complaints about what follows name the program
   app_ = std::make_unique<CLI::App>(what, name);
+  fit_help(*app_);
 }
 
 Program::~Program() = default;

@@ -243,6 +243,7 @@ void add_umbmark(console::Command app) {
   const auto options = std::make_shared<UmbmarkOptions>();
   const console::Command command = app.add_subcommand(
       "umbmark", "the whole experiment: squares, calibration, upload, squares again, report");
+  command.alias("experiment");
   add_umbmark_options(command, *options);
   command.footer(
       "Ctrl-C stops the robot; the same command goes on from the last recorded run.\n"

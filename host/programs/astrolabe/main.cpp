@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "common/base/version.hpp"
 #include "host/base/error.hpp"
@@ -19,7 +20,9 @@
 #include "host/console/interrupt.hpp"
 #include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/programs/astrolabe/about.hpp"
 #include "host/programs/astrolabe/all_commands.hpp"
+#include "host/programs/astrolabe/demo.hpp"
 
 namespace {
 
@@ -28,10 +31,21 @@ using namespace astro::console;   // NOLINT(google-build-using-namespace): and h
 
 constexpr int kFailed = 1, kWrongUsage = 2, kInterrupted = 130;
 
+int run(int argc, char** argv);
+
+int run_words(const std::vector<std::string>& words) {
+  std::vector<std::string> line{"astrolabe"};
+  line.insert(line.end(), words.begin(), words.end());
+  std::vector<char*> pointers;
+  for (std::string& word : line) pointers.push_back(word.data());
+  return run(static_cast<int>(pointers.size()), pointers.data());
+}
+
 int run(int argc, char** argv) {
   Program program("astrolabe", "Calibrates the odometry of differential-drive robots.");
-  program.version(fmt::format("astrolabe {}.{}.{}", astro::kFirmwareVersion.major,
-                              astro::kFirmwareVersion.minor, astro::kFirmwareVersion.patch));
+  const std::string version = fmt::format("astrolabe {}.{}.{}", astro::kFirmwareVersion.major,
+                                          astro::kFirmwareVersion.minor, astro::kFirmwareVersion.patch);
+  program.version(version);
   program.foreign_words(kRosArguments, "--");
   const Command app = program.command();
   app.require_subcommand(1, 1);
@@ -39,7 +53,9 @@ int run(int argc, char** argv) {
       "'astrolabe COMMAND --help' shows options and examples.\n"
       "Exit codes: 0 done, also where a calibration cannot be judged; 1 something outside is wrong; 2 wrong\n"
       "usage; 3 a calibration is not better than what the robot carries; 130 Ctrl-C.");
+  app.under("Start", [&] { add_demo(app, run_words); });
   add_all(app);
+  add_about(app, version);
   const int code = program.run(argc, argv);
   flush_output();
   return code;

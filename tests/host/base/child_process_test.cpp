@@ -78,6 +78,18 @@ TEST(ChildProcess, ThatSaysNothingIsToldFromOneThatEndsAndIsKilledInTheEnd) {
   EXPECT_FALSE(child.writes_lines());
 }
 
+TEST(ChildProcess, MayEndByItselfWhenAsked) {
+  ChildProcess child;
+  std::string said;
+  ASSERT_EQ(child.start({"sh", "-c", "trap 'exit 7' TERM; echo ready; while :; do sleep 0.01; done"},
+                        ChildProcess::Output::lines, [&](std::string_view line) { said = line; }),
+            0);
+  EXPECT_TRUE(child.wait(kLong));
+  EXPECT_EQ(said, "ready");
+  child.terminate();
+  EXPECT_EQ(child.finish(kLong), 7);
+}
+
 TEST(ChildProcess, EndsWithItsObject) {
   std::string pid;
   {

@@ -45,7 +45,7 @@ std::vector<std::string> split(const std::string& words) {
 std::string all_help() {
   std::string text;
   const std::string commands = astrolabe({"--help"}).out;
-  for (const std::string& name : found(commands, R"(\n  ([a-z][a-z-]+) )")) {
+  for (const std::string& name : found(commands, R"(\n  ([a-z][a-z-]+)[ ,])")) {
     const std::string help = astrolabe({name, "--help"}).out;
     text += help;
     const std::size_t below = help.find("Subcommands:");

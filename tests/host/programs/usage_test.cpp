@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "tests/support/programs/program.hpp"
@@ -19,15 +22,23 @@ Words with(Words words, const std::string& more) {
   return words;
 }
 
-// As --help lists them: two blanks, the name, its description.
-Words commands_in(const std::string& help) {
-  Words names;
-  std::istringstream lines(help.substr(std::min(help.size(), help.find("Subcommands:"))));
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line) && line.starts_with("  "))
-    names.push_back(line.substr(2, line.find(' ', 2) - 2));
-  return names;
+struct Listed {
+  std::string heading, name;
+};
+
+// As --help lists them below the options: a short heading, and on each line two blanks, the name, its description.
+std::vector<Listed> commands_in(const std::string& help) {
+  std::vector<Listed> commands;
+  std::istringstream lines(help);
+  std::string line, heading;
+  while (std::getline(lines, line)) {
+    if (!line.starts_with(' ')) heading = line.ends_with(':') ? line.substr(0, line.size() - 1) : "";
+    const bool listed = line.starts_with("  ") && line.size() > 2 && std::islower(line[2]) != 0;
+    if (listed && !heading.empty() && heading.size() < 12 && heading != "Positionals" &&
+        !heading.starts_with("Example"))
+      commands.push_back({heading, line.substr(2, line.find_first_of(" ,", 2) - 2)});
+  }
+  return commands;
 }
 
 std::string joined(const Words& words) {
@@ -46,12 +57,34 @@ int explain(const Words& command) {
     EXPECT_THAT(outcome.out.substr(examples), HasSubstr("astrolabe" + joined(command)));
   }
   int explained = 1;
-  for (const std::string& name : commands_in(outcome.out)) explained += explain(with(command, name));
+  for (const Listed& sub : commands_in(outcome.out)) explained += explain(with(command, sub.name));
   return explained;
 }
 
+void fits(const Words& command) {
+  const std::string help = astrolabe(with(command, "--help")).out;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LE(line.size(), 80) << joined(command) << '\n' << line;
+  for (const Listed& sub : commands_in(help)) fits(with(command, sub.name));
+}
+
+TEST(Help, OfEveryCommandFits80Columns) { fits({}); }
+
+TEST(Help, ListsEveryCommandUnderOneHeading) {
+  std::map<std::string, Words> headings;
+  std::set<std::string> names;
+  for (const Listed& command : commands_in(astrolabe({"--help"}).out)) {
+    headings[command.heading].push_back(command.name);
+    EXPECT_TRUE(names.insert(command.name).second) << command.name;
+  }
+  EXPECT_THAT(headings, testing::SizeIs(7));
+  EXPECT_THAT(headings, testing::Not(testing::Contains(testing::Key("Subcommands"))));
+  EXPECT_THAT(headings["Calibrate"], testing::Contains("umbmark"));
+}
+
 TEST(Help, OfEveryCommandShowsExamplesOfIt) {
-  EXPECT_GE(explain({}), 1 + 19 + 7 + 8 + 1);  // the program, its commands, those of drive, params and study
+  EXPECT_GE(explain({}), 1 + 31 + 7 + 8 + 1);  // the program, its commands, those of drive, params and study
 }
 
 TEST(Version, IsOneLine) {

@@ -1,0 +1,84 @@
+#include "host/programs/astrolabe/demo.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "host/base/child_process.hpp"
+#include "host/base/error.hpp"
+#include "host/base/interrupted.hpp"
+#include "host/base/system_error.hpp"
+#include "host/console/interrupt.hpp"
+
+namespace astro::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DemoOptions {
+  fs::path folder = "astrolabe-demo";
+  std::uint64_t seed = 1;
+};
+
+/// `astrolabe sim` in a process of its own, as it would run in a second terminal.
+class SimulatedRobot {
+ public:
+  /// The wheels differ by 0.416 %, the wheelbase is 0.479 % shorter than the robot believes, and the wheels slip as those of
+  /// the robot that the numbers come from.
+  SimulatedRobot(const fs::path& port, std::uint64_t seed) {
+    const int failed = process_.start(
+        {"/proc/self/exe", "sim", "--pty", port.string(), "--true-ed", "1.00416", "--true-wheelbase",
+         "0.28861", "--slip", "2.645e-6", "--seed", std::to_string(seed), "--fast"},
+        ChildProcess::Output::lines, [&](std::string_view line) { said_ = line; });
+    if (failed != 0) throw Error("the simulated robot cannot be started: " + system_reason(failed));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!fs::exists(port)) {
+      process_.wait(std::chrono::milliseconds(20));
+      if (console::interrupted()) throw Interrupted("the demonstration was interrupted");
+      if (!process_.writes_lines() || std::chrono::steady_clock::now() > end)
+        throw Error("the simulated robot does not start: " + said_);
+    }
+  }
+  ~SimulatedRobot() {
+    process_.terminate();  // it takes its port away
+    process_.finish(std::chrono::seconds(5));
+  }
+  SimulatedRobot(const SimulatedRobot&) = delete;
+  SimulatedRobot& operator=(const SimulatedRobot&) = delete;
+
+ private:
+  ChildProcess process_;
+  std::string said_;
+};
+
+void demonstrate(const DemoOptions& options, const std::function<int(const std::vector<std::string>&)>& run) {
+  if (fs::exists(options.folder))
+    throw Error("'" + options.folder.string() +
+                "' exists already: remove it, or name another folder with --out");
+  fs::create_directories(options.folder);
+  const fs::path port = options.folder / "robot.pty", experiment = options.folder / "experiment";
+  const SimulatedRobot robot(port, options.seed);
+  if (run({"umbmark", "--port", port.string(), "--truth", "sim", "--runs", "5", "--side", "3", "--out",
+           experiment.string(), "--yes"}) != 0)
+    return;
+  fmt::print("\nHow the factors were found, from the drives before:\n");
+  if (run({"calibrate", "runs", (experiment / "before").string()}) != 0) return;
+  fmt::print("\nThe report with both: {}\n", (experiment / "report.html").string());
+}
+
+}  // namespace
+
+void add_demo(console::Command app, const std::function<int(const std::vector<std::string>&)>& run) {
+  const auto options = std::make_shared<DemoOptions>();
+  const console::Command command = app.add_subcommand(
+      "demo", "calibrate a simulated robot from end to end, with a report: nothing else is needed");
+  command.add_option("--out", options->folder, "folder for drives and report").capture_default_str();
+  command.add_option("--seed", options->seed, "of the noise: other seeds, other drives")
+      .capture_default_str();
+  command.footer("Example:\n  astrolabe demo --out /tmp/my-demo");
+  command.callback([options, run] { demonstrate(*options, run); });
+}
+
+}  // namespace astro::commands
