@@ -94,6 +94,13 @@ class FoxgloveServerOnLoopback : public testing::Test {
     return *server_;
   }
 
+  /// The viewer asks to watch, and the server has heard it: what a viewer sends is answered in order, what several send is not.
+  void watches(Viewer& viewer, const char* subscription) {
+    viewer.send(subscription);
+    viewer.send(R"({"op":"getParameters","parameterNames":["b"],"id":"x"})");
+    EXPECT_FALSE(hear(viewer, "parameterValues").is_null());
+  }
+
   template <class Condition>
   bool eventually(Condition condition) {
     const auto end = steady_clock::now() + kLong;
@@ -236,11 +243,8 @@ TEST_F(FoxgloveServerOnLoopback, SixteenWatchAndAnotherOneMayStopTheRobotAndWatc
   std::vector<Viewer> viewers;
   for (int i = 0; i < 16; ++i) {
     viewers.emplace_back(server_->port());
-    viewers.back().send(watch);
+    watches(viewers.back(), watch);
   }
-  // They have been taken in order once the last one is answered.
-  viewers.back().send(R"({"op":"getParameters","parameterNames":["b"],"id":"x"})");
-  EXPECT_FALSE(hear(viewers.back(), "parameterValues").is_null());
   Viewer late(server_->port());
   late.send(watch);
   EXPECT_THAT(hear(late, "status")["message"], HasSubstr("16 viewers watch already"));
@@ -263,7 +267,7 @@ TEST_F(FoxgloveServerOnLoopback, AWatcherThatReadsNothingGivesItsPlaceToOneThatW
   stuck.receive_buffer = 4096;
   for (int i = 0; i < 16; ++i) {
     viewers.emplace_back(server_->port(), i == 5 ? stuck : ViewerRequest{});
-    viewers.back().send(watch);
+    watches(viewers.back(), watch);
   }
   Viewer late(server_->port());
   const std::string piece(100'000, 'x');
