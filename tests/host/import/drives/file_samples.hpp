@@ -78,7 +78,7 @@ class McapBag {
   }
   void message(std::uint16_t topic, std::int64_t time_ns, ByteView data) {
     const auto time = static_cast<std::uint64_t>(time_ns);
-    append_message(chunk_, {topic, 0, time, time, data});
+    bag::mcap::append_message(chunk_, {topic, 0, time, time, data});
   }
   std::size_t open_bytes() const { return chunk_.size(); }
   void end_chunk() { add_chunk(packed(compression_, chunk_), chunk_.size()), chunk_.clear(); }
