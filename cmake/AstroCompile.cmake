@@ -19,7 +19,9 @@ target_compile_options(astro_compile INTERFACE
 if(ASTROLABE_TARGET STREQUAL host)  # main() has no declaration on a bare machine
   target_compile_options(astro_compile INTERFACE -Wmissing-declarations)
 endif()
-if(ASTROLABE_TARGET STREQUAL teensy40)
+set(ASTRO_PROCESSOR_teensy40 cortex-m7)
+set(ASTRO_PROCESSOR_rp2040 cortex-m0plus)
+if(ASTRO_PROCESSOR_${ASTROLABE_TARGET})
   # Not in the toolchain file, whose flags an existing build would keep when they change.
   # Soft float on purpose: a float that slips in becomes a library call, which the image check finds by name.
   # -fno-schedule-insns: the first scheduling pass fills the registers with early loads and then spills them; without
@@ -27,11 +29,11 @@ if(ASTROLABE_TARGET STREQUAL teensy40)
   # -fno-jump-tables: a jump through a table of addresses looks like a call through a pointer, which the check of the
   # stack could not follow.
   # -flto-partition=one: what the tick costs must not depend on where the linker cuts the program in two.
-  set(cortex_m7 -mcpu=cortex-m7 -mthumb -mfloat-abi=soft -ffreestanding -fno-exceptions -fno-rtti
+  set(bare_metal -mcpu=${ASTRO_PROCESSOR_${ASTROLABE_TARGET}} -mthumb -mfloat-abi=soft -ffreestanding -fno-exceptions -fno-rtti
     -fno-threadsafe-statics -fno-use-cxa-atexit -fno-common -fno-schedule-insns -fno-jump-tables
     -ffunction-sections -fdata-sections -flto=auto -flto-partition=one -fstack-usage)
-  target_compile_options(astro_compile INTERFACE ${cortex_m7})
-  target_link_options(astro_compile INTERFACE ${cortex_m7})
+  target_compile_options(astro_compile INTERFACE ${bare_metal})
+  target_link_options(astro_compile INTERFACE ${bare_metal})
 endif()
 if(ASTROLABE_TARGET STREQUAL web)
   # Debian's Emscripten has libc++ 13, whose ranges are not finished. Its compiler and its library go with the headers of 16.

@@ -7,7 +7,7 @@ file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/common/*.cpp ${ROOT}/hal/*.cpp 
 foreach(file IN LISTS files)
   math(EXPR count "${count} + 1")
   if(file MATCHES "/main\\.cpp$|^firmware/main/"  # a program: nobody calls it
-     OR file STREQUAL "hal/teensy40/core/image_header.cpp")  # data for the boot ROM, placed by the linker script
+     OR file MATCHES "^hal/[a-z0-9]+/core/image_header\\.cpp$")  # data for the boot ROM, placed by the linker script
     continue()
   endif()
   # A subcommand: declared in the list of its folder.

@@ -1,8 +1,13 @@
 #!/usr/bin/env bash
-# firmware/main/report.sh IMAGE: what an image takes on the chip, what takes it, and where its files are.
+# firmware/main/report.sh BOARD: what the image of a board takes on the chip, what takes it, and where its files are.
 set -euo pipefail
-image=$1
-flash_budget=65536 ram_budget=16384
+board=$1
+image=build/$board/bin/astrolabe-$board
+case $board in
+  teensy40) flash_budget=65536 ram_budget=16384 flashed=hex ;;
+  rp2040) flash_budget=98304 ram_budget=98304 flashed=uf2 ;; # the code is in its RAM, too
+  *) echo "report.sh: no budgets for the board '$board'" >&2; exit 2 ;;
+esac
 
 sections() { arm-none-eabi-size -A -d "$image.elf" | awk '$1 ~ /^\./ && $1 !~ /debug|ARM/ && $2 > 0'; }
 symbols() { arm-none-eabi-nm -S "$@" "$image.elf" | awk '$2 ~ /^[0-9a-f]+$/ && length($2) == 8'; }
@@ -24,7 +29,8 @@ printf '\nflash %6d of %d bytes\nRAM   %6d of %d bytes, stack included\n\n' \
 
 printf '%8s  %-22s %-10s\n' bytes section where
 sections | awk '{
-  place = $3 >= 1610612736 ? "flash" : $3 >= 536870912 ? "RAM" : "code RAM, copied from flash"
+  at_flash = $3 >= 1610612736 || ($3 >= 268435456 && $3 < 536870912)
+  place = at_flash ? "flash" : $3 >= 536870912 ? "RAM" : "code RAM, copied from flash"
   printf "%8d  %-22s 0x%08x  %s\n", $2, $1, $3, place }'
 
 echo
@@ -39,6 +45,6 @@ largest "largest constants" rR
 largest "largest objects in RAM" bBdD
 
 echo
-for extension in hex elf map; do echo "$image.$extension"; done
+for extension in "$flashed" elf map; do echo "$image.$extension"; done
 echo
-echo "to flash it: astrolabe flash $image.hex"
+echo "to flash it: astrolabe flash $image.$flashed"

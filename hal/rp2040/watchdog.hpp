@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+namespace astro::rp2040::watchdog_timer {
+
+/// Half a second without feeding restarts the chip. That is longer than the 400 ms that the flash may take to erase a
+/// sector.
+inline constexpr std::uint32_t kTimeOut_ms = 512;
+
+/// Starts the watchdog, which is off after every reset.
+void start();
+
+/// A single store; callable from any context.
+void feed();
+
+/// Restarts the chip now. `left_marker` says why to the next start (arithmetic/reset_cause.hpp).
+[[noreturn]] void restart(std::uint32_t left_marker);
+
+}  // namespace astro::rp2040::watchdog_timer
