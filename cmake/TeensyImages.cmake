@@ -1,12 +1,7 @@
-# The images for the Teensy, built beside this build by their own compiler: target teensy40_images.
-# astro_uses_images(target): builds them first and tells the program where they are (ASTRO_IMAGE_DIR).
+# astro_uses_images(target): builds the images for the Teensy first and tells the program where they are (ASTRO_IMAGE_DIR).
 include_guard(GLOBAL)
-# Several host builds of one tree share that folder: one at a time.
-set(one_at_a_time flock ${CMAKE_SOURCE_DIR}/build/teensy40.lock)
-add_custom_target(teensy40_images
-  COMMAND ${one_at_a_time} ${CMAKE_COMMAND} --preset teensy40 -DASTROLABE_WERROR=${ASTROLABE_WERROR} > ${CMAKE_BINARY_DIR}/teensy40.log
-  COMMAND ${one_at_a_time} ${CMAKE_COMMAND} --build ${CMAKE_SOURCE_DIR}/build/teensy40
-  WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} VERBATIM USES_TERMINAL)
+include(BoardImages)
+astro_board_images(teensy40)
 
 function(astro_uses_images target)
   add_dependencies(${target} teensy40_images)

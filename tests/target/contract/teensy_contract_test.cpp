@@ -11,7 +11,7 @@ namespace {
 
 class TeensyRig {
  public:
-  target::RemoteBoard& board() { return board_; }
+  target::TeensyBoard& board() { return board_; }
   void pass_ms(int ms) { teensy().run_for(std::chrono::milliseconds(ms)); }
   void set_counts(hal::EncoderCounts counts) {
     teensy().encoder(0).preset(counts.left);
@@ -41,7 +41,7 @@ class TeensyRig {
   }
   std::array<std::uint8_t, 16> other_id() {
     target::Puppet other(2);
-    return target::RemoteBoard(other).system().unique_id();
+    return target::TeensyBoard(other).system().unique_id();
   }
   std::array<std::uint8_t, 16> restarted_id() {
     teensy().power_cycle();
@@ -58,7 +58,7 @@ class TeensyRig {
   emulator::Teensy& teensy() { return puppet_.teensy(); }
 
   target::Puppet puppet_{1};
-  target::RemoteBoard board_{puppet_};
+  target::TeensyBoard board_{puppet_};
 };
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Teensy40, BoardContract, TeensyRig);
