@@ -9,12 +9,14 @@
 #include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
 #include "host/commands/robot/loader.hpp"
+#include "host/commands/robot/pico_drive.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/restart.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
 #include "host/formats/files/firmware_image.hpp"
+#include "host/formats/files/uf2_image.hpp"
 #include "host/robot/client/handshake.hpp"
 #include "host/robot/parameters/parameters.hpp"
 #include "host/robot/port/ports.hpp"
@@ -24,7 +26,25 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kBuilt = "build/teensy40/bin/astrolabe-teensy40.hex";
-constexpr std::string_view kBoard = "teensy40";
+
+/// What a kind of image is for, and how it gets there.
+struct Destination {
+  std::string_view board, person_does;
+};
+constexpr Destination kHex{"teensy40",
+                           "press the button on the Teensy, unless it is in its boot loader already"};
+constexpr Destination kUf2{
+    "rp2040", "hold BOOTSEL on the Pico while you plug it in, unless it is in its boot loader already"};
+
+struct Loadable {
+  FirmwareImage image;
+  Destination destination;
+};
+
+Loadable read_image(const fs::path& file) {
+  if (begins_as_uf2(file)) return {read_uf2_image(file), kUf2};
+  return {read_firmware_image(file), kHex};
+}
 
 struct FlashOptions {
   ConnectionOptions connection;
@@ -44,13 +64,15 @@ std::unique_ptr<robot::Client> find_robot(ConnectionOptions& options) {
   }
 }
 
-void check_board(const protocol::HelloReply& robot, const fs::path& file) {
-  if (robot.board.view() != kBoard)
+void check_board(const protocol::HelloReply& robot, std::string_view board, const fs::path& file) {
+  if (robot.board.view() != board)
     throw Error(fmt::format("{} is a '{}' and '{}' is for a '{}': name the port of another robot with --port",
-                            robot.robot_name.view(), robot.board.view(), file.string(), kBoard));
+                            robot.robot_name.view(), robot.board.view(), file.string(), board));
 }
 
-bool is_for_this_board(const FirmwareImage& image) { return !image.version.empty() && image.board == kBoard; }
+bool is_for_its_board(const Loadable& loadable) {
+  return !loadable.image.version.empty() && loadable.image.board == loadable.destination.board;
+}
 
 std::string describe(const FirmwareImage& image, const fs::path& file) {
   if (image.version.empty()) return fmt::format("'{}' is not firmware of Astrolabe", file.string());
@@ -60,10 +82,17 @@ std::string describe(const FirmwareImage& image, const fs::path& file) {
 }
 
 /// Called before anything is erased.
-void check_origin(const FirmwareImage& image, const FlashOptions& options) {
-  if (is_for_this_board(image)) return console::say(describe(image, options.file));
-  if (!options.yes && !console::confirm(fmt::format("{}. Flash it anyway?", describe(image, options.file))))
+void check_origin(const Loadable& loadable, const FlashOptions& options) {
+  const std::string what = describe(loadable.image, options.file);
+  if (is_for_its_board(loadable)) return console::say(what);
+  if (!options.yes && !console::confirm(fmt::format("{}. Flash it anyway?", what)))
     throw Error("nothing was flashed");
+}
+
+/// Into a robot that waits in its boot loader, or will.
+void load(const Loadable& loadable, const fs::path& loader, const fs::path& file) {
+  if (loadable.destination.board == kUf2.board) return copy_to_pico(file);
+  run_loader(loader, file);
 }
 
 void check_disarmed(robot::Client& client) {
@@ -103,25 +132,26 @@ void check_parameters(const robot::RemoteParameters& before, const robot::Remote
 }
 
 void run(FlashOptions& options) {
-  const FirmwareImage image = read_firmware_image(options.file);
-  const fs::path loader = find_loader();
-  check_origin(image, options);
+  const Loadable loadable = read_image(options.file);
+  const FirmwareImage& image = loadable.image;
+  const fs::path loader = loadable.destination.board == kHex.board ? find_loader() : fs::path();
+  check_origin(loadable, options);
   if (options.button) {
-    console::say("press the button on the Teensy, unless it is in its boot loader already");
-    run_loader(loader, options.file);
+    console::say(std::string(loadable.destination.person_does));
+    load(loadable, loader, options.file);
     return console::say(
         fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
   }
   const auto client = find_robot(options.connection);
   const std::string old = robot::firmware_version(client->robot());
   console::say(fmt::format("{} runs firmware {}", client->robot().robot_name.view(), old));
-  check_board(client->robot(), options.file);
+  check_board(client->robot(), loadable.destination.board, options.file);
   check_disarmed(*client);
   const robot::RemoteParameters before = robot::RemoteParameters::fetch(*client);
   client->request(protocol::Disarm{});
   request_restart<protocol::EnterBootloader>(*client);
-  run_loader(loader, options.file);
-  if (!is_for_this_board(image))
+  load(loadable, loader, options.file);
+  if (!is_for_its_board(loadable))
     return console::say(
         fmt::format("flashed {}; whether it runs, 'astrolabe info' shows if it can", options.file.string()));
   wait_for(*client);
@@ -136,6 +166,7 @@ constexpr Advice kFlashAdvice[] = {
     {ImageProblem::unreadable, ": build one with './dev firmware'"},
     {ImageProblem::too_large, ": build one with './dev firmware'"},
     {ImageProblem::of_other_board, ": build one with './dev firmware'"},
+    {ImageProblem::not_uf2, " with './dev firmware rp2040'"},
 };
 
 }  // namespace
@@ -145,14 +176,18 @@ void add_flash(console::Command app) {
   const auto options = std::make_shared<FlashOptions>();
   const console::Command command =
       app.add_subcommand("flash", "load new firmware into the robot, which must be disarmed");
-  command.add_option("file", options->file, "image for the Teensy 4.0, as './dev firmware' builds it")
+  command
+      .add_option("file", options->file,
+                  "image for the robot's board, as './dev firmware' builds it: .hex for a Teensy 4.0, .uf2 "
+                  "for a Pico")
       .type_name("FILE")
       .capture_default_str();
   command.add_flag("--button", options->button, "do not contact the robot: a person presses its button");
   add_yes(command, options->yes, "flash also what is not Astrolabe's, or not for this board");
   add_connection(command, options->connection);
   console::examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",
-                              "astrolabe flash --button"});
+                              "astrolabe flash --button",
+                              "astrolabe flash build/rp2040/bin/astrolabe-rp2040.uf2 --port /dev/ttyUSB0"});
   command.callback([options] { run(*options); });
 }
 

@@ -50,16 +50,14 @@ std::uint32_t word(const std::vector<std::uint8_t>& flash, std::size_t offset) {
   return load<std::uint32_t>(flash, offset);
 }
 
-std::string version_in(const std::vector<std::uint8_t>& flash) {
-  const std::uint8_t* info = flash.data() + kInfoAt;
+std::string version_in(const std::uint8_t* info) {
   if (!std::equal(kInfoTag.begin(), kInfoTag.end(), info)) return "";
   const std::uint8_t* version = info + kInfoTagBytes;
   return fmt::format("{}.{}.{}", version[0], version[1], version[2]);
 }
 
-std::string board_in(const std::vector<std::uint8_t>& flash) {
+std::string board_in(const std::uint8_t* info) {
   constexpr std::size_t kBytesAt = 15, kBoardAt = 16, kBoardBytes = 16;
-  const std::uint8_t* info = flash.data() + kInfoAt;
   if (info[kBytesAt] < kBoardAt + kBoardBytes) return "";
   const std::uint8_t *board = info + kBoardAt, *end = std::find(board, board + kBoardBytes, 0);
   const bool printable = std::all_of(board, end, [](std::uint8_t c) { return c > ' ' && c < 0x7F; });
@@ -67,6 +65,11 @@ std::string board_in(const std::vector<std::uint8_t>& flash) {
 }
 
 }  // namespace
+
+void read_image_info(FirmwareImage& image, std::size_t at) {
+  image.version = version_in(image.flash.data() + at);
+  if (!image.version.empty()) image.board = board_in(image.flash.data() + at);
+}
 
 FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
   std::error_code missing;
@@ -102,8 +105,7 @@ FirmwareImage read_firmware_image(const std::filesystem::path& hex) {
       word(image.flash, kVectorTableAt) != kVectorTableTag || word(image.flash, kFlashBytesAt) != kFlashBytes)
     throw Error(fmt::format("'{}' is no image for a Teensy 4.0", hex.string()), ImageProblem::of_other_board,
                 {hex.string()});
-  image.version = version_in(image.flash);
-  if (!image.version.empty()) image.board = board_in(image.flash);
+  read_image_info(image, kInfoAt);
   return image;
 }
 
