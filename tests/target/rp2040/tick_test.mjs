@@ -95,6 +95,25 @@ test('the tick is not late while the flash erases and programs', () => {
   expectNoComplaints(pico);
 });
 
+test('tick and clock go on when the lower word of the timer begins anew, after 71 minutes', () => {
+  const { pico, host } = bench();
+  const kWrap_us = 2 ** 32;
+  pico.chip.clock.nanosCounter = (kWrap_us - 300e3) * 1000; // as if it had been counting for so long before the start
+  host.hello();
+  const before = host.status();
+  const times = [before.time_us];
+  for (let i = 0; i < 60; ++i) {
+    for (let ms = 0; ms < 10; ++ms) host.advance(1);
+    times.push(host.status().time_us);
+  }
+  const after = host.status();
+  assert.ok(times[0] < kWrap_us && times.at(-1) > kWrap_us, `${times[0]} to ${times.at(-1)} us`);
+  for (let i = 1; i < times.length; ++i) assert.ok(times[i] > times[i - 1] && times[i] < times[i - 1] + 30e3, `${times[i - 1]} then ${times[i]}`);
+  assert.ok(Math.abs(after.ticks - before.ticks - (times.at(-1) - times[0]) / 1000) <= 2, 'a tick a millisecond');
+  assert.equal(after.overruns, 0);
+  expectNoComplaints(pico);
+});
+
 test('the stack never takes more than two thirds of what it has', () => {
   const { pico, host } = bench();
   const bottom = symbols.get('stack_bottom'), top = symbols.get('stack_top'), kPaint = 0xa5a5a5a5;

@@ -116,7 +116,7 @@ export class Host {
   status() {
     const reply = this.request(id.status);
     return {
-      mode: reply[11], faults: reply.readUInt32LE(12), battery_mV: reply.readInt32LE(20), ticks: reply.readUInt32LE(24),
+      time_us: Number(reply.readBigUInt64LE(3)), mode: reply[11], faults: reply.readUInt32LE(12), battery_mV: reply.readInt32LE(20), ticks: reply.readUInt32LE(24),
       overruns: reply.readUInt32LE(28), longest_us: reply.readUInt32LE(32), bad: reply.readUInt32LE(36), cause: reply[40],
     };
   }
