@@ -45,6 +45,7 @@ set(ASTRO_LAYERS
   "host/import/bags             : common host/base host/calibration/motion host/formats/cdr host/formats/files host/formats/messages host/import/wheels"
   "host/import/drives           : common host/base host/calibration/end_poses host/calibration/motion host/experiment/analysis host/experiment/files host/formats/files host/formats/messages host/formats/tables host/import/bags host/import/wheels host/recording host/report host/truth/files host/truth/floor"
   "host/import/wheels           : common host/base host/formats/files host/formats/tables"
+  "host/lidar                   : host/base host/calibration/motion"
   "host/live/dds                : host/base"
   "host/live/driver             : common host/base host/calibration/likelihood host/calibration/motion host/formats/cdr host/formats/messages host/recording host/robot/client host/robot/motion host/robot/parameters"
   "host/live/foxglove           : host/base host/formats/cdr host/formats/messages host/live/driver"
