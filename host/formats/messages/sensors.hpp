@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
 #include <limits>
 
-#include "host/formats/messages/std.hpp"
+#include "host/formats/messages/geometry.hpp"
 
 namespace astro::ros2::msg {
 
@@ -20,6 +21,53 @@ struct JointState {
                                       Field{&JointState::velocity, "velocity"},
                                       Field{&JointState::effort, "effort"}};
   bool operator==(const JointState&) const = default;
+};
+
+/// One turn of a laser scanner, or the part of it that it sees: radians and metres, seconds between beams and between scans. The
+/// stamp is the time of the first beam. intensities has the length of ranges, or is empty.
+struct LaserScan {
+  Header header;
+  float angle_min = 0, angle_max = 0, angle_increment = 0;
+  float time_increment = 0, scan_time = 0;
+  float range_min = 0, range_max = 0;
+  std::vector<float> ranges;
+  std::vector<float> intensities;
+
+  static constexpr std::string_view kType = "sensor_msgs/msg/LaserScan";
+  static constexpr std::tuple kFields{Field{&LaserScan::header, "header"},
+                                      Field{&LaserScan::angle_min, "angle_min"},
+                                      Field{&LaserScan::angle_max, "angle_max"},
+                                      Field{&LaserScan::angle_increment, "angle_increment"},
+                                      Field{&LaserScan::time_increment, "time_increment"},
+                                      Field{&LaserScan::scan_time, "scan_time"},
+                                      Field{&LaserScan::range_min, "range_min"},
+                                      Field{&LaserScan::range_max, "range_max"},
+                                      Field{&LaserScan::ranges, "ranges"},
+                                      Field{&LaserScan::intensities, "intensities"}};
+  bool operator==(const LaserScan&) const = default;
+};
+
+/// rad/s and m/s^2; each covariance row by row of x, y, z, all zero if unknown. A first element of -1 says that the quantity is
+/// not measured.
+struct Imu {
+  Header header;
+  Quaternion orientation;
+  std::array<double, 9> orientation_covariance{};
+  Vector3 angular_velocity;
+  std::array<double, 9> angular_velocity_covariance{};
+  Vector3 linear_acceleration;
+  std::array<double, 9> linear_acceleration_covariance{};
+
+  static constexpr std::string_view kType = "sensor_msgs/msg/Imu";
+  static constexpr std::tuple kFields{
+      Field{&Imu::header, "header"},
+      Field{&Imu::orientation, "orientation"},
+      Field{&Imu::orientation_covariance, "orientation_covariance"},
+      Field{&Imu::angular_velocity, "angular_velocity"},
+      Field{&Imu::angular_velocity_covariance, "angular_velocity_covariance"},
+      Field{&Imu::linear_acceleration, "linear_acceleration"},
+      Field{&Imu::linear_acceleration_covariance, "linear_acceleration_covariance"}};
+  bool operator==(const Imu&) const = default;
 };
 
 /// V, A, Ah, degrees Celsius; NaN for what is not measured. A discharging current is negative.

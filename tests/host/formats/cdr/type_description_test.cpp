@@ -27,6 +27,8 @@ TEST(TypeHash, OfEachMessageIsThatOfRos2) {
   expect_hash<msg::TFMessage>("e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087");
   expect_hash<msg::Odometry>("3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0");
   expect_hash<msg::JointState>("a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e");
+  expect_hash<msg::LaserScan>("64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828");
+  expect_hash<msg::Imu>("7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b");
   expect_hash<msg::BatteryState>("4bee5dfce981c98faa6828b868307a0a73f992ed0789f374ee96c8f840e69741");
   expect_hash<msg::DiagnosticArray>("5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e");
   expect_hash<msg::DiagnosticStatus>("b0e3e692ea2d54a8af2f4ef1930e81556a2db55216b771f8a7d2724ed47bf0e4");
