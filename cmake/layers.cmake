@@ -61,7 +61,8 @@ set(ASTRO_LAYERS
   "host/robot/parameters        : common host/base host/robot/client"
   "host/robot/port              : host/base"
   "host/robot/sharing           : common host/base host/robot/port"
-  "host/simulation/robot        : firmware/app hal/sim host/base host/recording host/robot/port host/truth/source"
+  "host/simulation/robot        : firmware/app hal/sim host/base host/lidar host/recording host/robot/port host/simulation/room host/truth/source"
+  "host/simulation/room         : host/base host/experiment/files"
   "host/simulation/server       : host/base host/recording host/simulation/robot host/truth/source host/truth/trackers"
   "host/simulation/study        : host/base host/calibration/end_poses host/calibration/judgement host/calibration/likelihood host/calibration/motion host/experiment/analysis host/experiment/drive host/recording host/robot/motion host/robot/parameters host/simulation/robot"
   "host/truth/files             : host/base host/formats/tables host/truth/source"
@@ -100,7 +101,7 @@ set(ASTRO_OUTSIDE
   "nlohmann/                : host/commands host/experiment host/live/foxglove host/page host/report host/simulation/study host/wall"
   "sqlite3.h                : host/formats/files"
   "tinyxml2.h               : host/import/wheels"
-  "toml++/                  : host/experiment"
+  "toml++/                  : host/experiment host/simulation/room"
   "unicorn/ elf.h cxxabi.h  : host/emulator/core"
   "yaml.h                   : host/formats/files"
   "zlib.h                   : host/formats/files host/formats/tables"
@@ -113,7 +114,7 @@ set(ASTRO_OUTSIDE
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/commands host/console host/robot/client host/robot/port host/robot/sharing host/live/dds host/live/foxglove host/simulation/server host/simulation/study host/truth/live"
 
   # Files, and what is printed.
-  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/film host/formats host/import host/page host/programs host/recording host/report host/robot/port host/simulation/server host/truth/files host/truth/live host/wall"
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/film host/formats host/import host/page host/programs host/recording host/report host/robot/port host/simulation/room host/simulation/server host/truth/files host/truth/live host/wall"
   "fstream                  : host/base host/emulator/core host/film/picture host/formats/files host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"

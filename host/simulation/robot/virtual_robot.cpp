@@ -12,6 +12,12 @@ VirtualRobot::VirtualRobot(const sim::Config& config, const MocapConfig& mocap)
   robot_.emplace(board_);
 }
 
+VirtualRobot::VirtualRobot(const sim::Config& config, const MocapConfig& mocap, const Room& room,
+                           const ScannerConfig& scanner)
+    : VirtualRobot(config, mocap) {
+  scanner_.emplace(room, scanner);
+}
+
 void VirtualRobot::step() {
   robot_->tick();
   robot_->poll();
@@ -22,6 +28,7 @@ void VirtualRobot::step() {
     if (seen_.size() >= 2 * kMinute) seen_.erase(seen_.begin(), seen_.begin() + kMinute);
     seen_.push_back(*sample);
   }
+  if (scanner_) scanner_->advance(board_.clock().now_us(), pose_of(board_.truth()));
   board_.advance_tick();
 }
 
@@ -29,6 +36,7 @@ void VirtualRobot::restart(hal::ResetCause cause) {
   board_.restart(cause);
   robot_.emplace(board_);
   mocap_.restart_clock();
+  if (scanner_) scanner_->restart_clock();
 }
 
 std::vector<recording::TruthSample> VirtualRobot::take_truth() { return std::exchange(seen_, {}); }

@@ -6,6 +6,7 @@
 #include "firmware/app/robot.hpp"
 #include "hal/sim/board.hpp"
 #include "host/simulation/robot/virtual_mocap.hpp"
+#include "host/simulation/robot/virtual_scanner.hpp"
 
 namespace astro::simulation {
 
@@ -16,6 +17,9 @@ namespace astro::simulation {
 class VirtualRobot {
  public:
   VirtualRobot(const sim::Config& config, const MocapConfig& mocap);
+  /// With a laser scanner, in a room of which the robot feels nothing.
+  VirtualRobot(const sim::Config& config, const MocapConfig& mocap, const Room& room,
+               const ScannerConfig& scanner);
 
   /// Runs one millisecond: the control tick, the main loop, then the world.
   void step();
@@ -30,10 +34,14 @@ class VirtualRobot {
   /// What the cameras saw since the last call; at least the last minute and at most the last two are kept.
   std::vector<recording::TruthSample> take_truth();
 
+  /// The robot's laser scanner, or null.
+  VirtualScanner* scanner() { return scanner_ ? &*scanner_ : nullptr; }
+
  private:
   sim::Board board_;
   std::optional<Robot<sim::Board>> robot_;
   VirtualMocap mocap_;
+  std::optional<VirtualScanner> scanner_;
   std::vector<recording::TruthSample> seen_;
 };
 
