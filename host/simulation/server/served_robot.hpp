@@ -23,7 +23,9 @@ class ServedRobot {
   /// Whether the host sets the motors' voltages itself, in its own control loop.
   virtual bool is_regulated() { return false; }
 
-  // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1.
+  // The robot's ports, numbered from 0: `pty` of ServerConfig leads to port 0, `second_pty` to port 1, `scanner_pty` to the
+  // port of a laser scanner.
+  static constexpr int kScannerPort = 2;
 
   /// Number of bytes that write() can take now.
   virtual std::size_t room(int port) = 0;

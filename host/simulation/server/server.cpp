@@ -13,6 +13,7 @@
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
 #include "host/base/system_error.hpp"
+#include "host/simulation/server/virtual_rplidar.hpp"
 
 namespace astro::simulation {
 namespace {
@@ -67,11 +68,25 @@ std::uint64_t serial_number_of(const ServerConfig& server) {
 
 fs::path beside(fs::path pty, const char* suffix) { return pty += suffix; }
 
+ScannerConfig scanner_of(const sim::Config& robot, const RoomFile& file) {
+  ScannerConfig scanner;
+  scanner.mount = file.scanner_mount;
+  scanner.upside_down = file.scanner_upside_down;
+  scanner.seed = robot.seed;
+  return scanner;
+}
+
 class ServedVirtualRobot : public ServedRobot {
  public:
   ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap) : robot_(config, mocap) {}
+  ServedVirtualRobot(const sim::Config& config, const MocapConfig& mocap, const RoomFile& room)
+      : robot_(config, mocap, room.room, scanner_of(config, room)),
+        rplidar_(std::in_place, RplidarConfig{}, scanner_of(config, room)) {}
 
-  void step() override { robot_.step(); }
+  void step() override {
+    robot_.step();
+    if (rplidar_) rplidar_->measure(robot_.scanner()->beams());
+  }
   bool drives() override {
     const auto hold = robot_.board().hold_tick();
     const protocol::Mode mode = robot_.robot().drive(hold).mode();
@@ -83,19 +98,30 @@ class ServedVirtualRobot : public ServedRobot {
     return robot_.robot().drive(hold).mode() == protocol::Mode::wheels;
   }
   std::uint64_t now_us() override { return robot_.now_us(); }
-  std::size_t room(int port) override { return robot_.board().ports().host_room(port); }
+  std::size_t room(int port) override {
+    constexpr std::size_t kRoomOfScanner = 256;
+    return port == kScannerPort ? kRoomOfScanner : robot_.board().ports().host_room(port);
+  }
   void write(int port, std::span<const std::uint8_t> bytes) override {
+    if (port == kScannerPort) return rplidar_->receive(bytes);
     robot_.board().ports().host_write(port, bytes);
   }
   std::size_t read(int port, std::span<std::uint8_t> into) override {
-    return robot_.board().ports().host_read(port, into);
+    return port == kScannerPort ? rplidar_->transmit(into) : robot_.board().ports().host_read(port, into);
   }
   std::vector<recording::TruthSample> take_truth() override { return robot_.take_truth(); }
   std::span<const std::uint8_t> flash() override { return robot_.board().flash().content(); }
 
  private:
   VirtualRobot robot_;
+  std::optional<VirtualRplidar> rplidar_;
 };
+
+std::unique_ptr<ServedRobot> served(const sim::Config& robot, const MocapConfig& mocap,
+                                    const ServerConfig& config) {
+  if (config.room) return std::make_unique<ServedVirtualRobot>(robot, mocap, *config.room);
+  return std::make_unique<ServedVirtualRobot>(robot, mocap);
+}
 
 }  // namespace
 
@@ -164,15 +190,16 @@ sim::Config config_of(const RobotOptions& robot, const ServerConfig& server) {
 }
 
 Server::Server(const RobotOptions& robot, const MocapConfig& mocap, const ServerConfig& config)
-    : Server(std::make_unique<ServedVirtualRobot>(config_of(robot, config), mocap), config) {}
+    : Server(served(config_of(robot, config), mocap, config), config) {}
 
 Server::Server(const sim::Config& robot, const MocapConfig& mocap, const ServerConfig& config)
-    : Server(std::make_unique<ServedVirtualRobot>(with_flash(robot, config.flash), mocap), config) {}
+    : Server(served(with_flash(robot, config.flash), mocap, config), config) {}
 
 Server::Server(std::unique_ptr<ServedRobot> robot, const ServerConfig& config)
     : config_(config), robot_(std::move(robot)), tracker_(config.tracker), pace_(Clock::now()) {
   channels_.emplace_back(*robot_, 0, config.pty);
   if (!config.second_pty.empty()) channels_.emplace_back(*robot_, 1, config.second_pty);
+  if (config.room) channels_.emplace_back(*robot_, ServedRobot::kScannerPort, config.scanner_pty);
   truth_.emplace(beside(config.pty, ".mocap"));
   if (!config.second_pty.empty()) truth_->add_link(beside(config.second_pty, ".mocap"));
   const auto content = robot_->flash();

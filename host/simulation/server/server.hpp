@@ -13,6 +13,7 @@
 
 #include "host/simulation/robot/robot_options.hpp"
 #include "host/simulation/robot/virtual_robot.hpp"
+#include "host/simulation/room/room_file.hpp"
 #include "host/simulation/server/network_tracker.hpp"
 #include "host/simulation/server/pace.hpp"
 #include "host/simulation/server/path_claim.hpp"
@@ -30,8 +31,10 @@ struct ServerConfig {
   // Empty: nothing is kept.
   std::filesystem::path flash{};
   bool fast = false;
-  std::filesystem::path second_pty{};  // to port 1; empty: none
-  NetworkTrackerConfig tracker{};      // by which protocols trackers of the network send the robot's pose
+  std::filesystem::path second_pty{};   // to port 1; empty: none
+  NetworkTrackerConfig tracker{};       // by which protocols trackers of the network send the robot's pose
+  std::optional<RoomFile> room{};       // what the robot's laser scanner sees; none: it has no scanner
+  std::filesystem::path scanner_pty{};  // to the scanner, an RPLIDAR A1, if there is a room
 };
 
 /// The content of a flash file; empty if there is none. Throws astro::Error if it cannot be read.

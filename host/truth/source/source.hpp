@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/lidar/scan.hpp"
 #include "host/recording/run.hpp"
 
 /// Where ground truth comes from while a robot drives.
@@ -27,6 +28,10 @@ class Source {
   /// All samples that arrived since the last call, oldest first; never waits. Times are on the clock that
   /// clock() names. Throws astro::Error if the tracker is gone.
   virtual std::vector<recording::TruthSample> poll() = 0;
+
+  /// The scans of a laser scanner on the robot that came since the last call, oldest first, on the same clock; never waits. They are
+  /// no poses: those follow from them after the run. Throws as poll().
+  virtual std::vector<lidar::Scan> take_scans() { return {}; }
 
   /// Whether truth comes from complete(), that is from people or files. Then the drive is saved before they
   /// are asked, so that it cannot be lost.
