@@ -21,6 +21,7 @@ class Exporter {
     counts_ = add("/wheel_counts", recording::wheel_counts_type());
     truth_ = add("/truth", ros2::pose_stamped_type());
     transforms_ = add("/tf", ros2::tf_message_type());
+    if (!run.scans.empty()) scans_ = add("/scan", recording::laser_scan_type());
     if (!robot_.knows_sizes()) return;
     joints_ = add("/joint_states", ros2::joint_state_type());
     description_ = bag_.add_topic("/robot_description", ros2::string_type().name,
@@ -42,6 +43,11 @@ class Exporter {
     describe(time_ns);
     bag_.write(truth_, time_ns, recording::encode_truth(sample));
   }
+  void write(const lidar::Scan& scan) {
+    const std::int64_t time_ns = log_time_.ns(scan.time_ns / 1000);
+    describe(time_ns);
+    bag_.write(scans_, time_ns, recording::encode_scan(scan));
+  }
   void close() { bag_.close(); }
 
  private:
@@ -59,7 +65,7 @@ class Exporter {
   RobotMessages robot_;
   LogTime log_time_;
   bool described_ = false;
-  int odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0;
+  int odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0, scans_ = 0;
 };
 
 }  // namespace
@@ -67,11 +73,14 @@ class Exporter {
 void export_rosbag(const Run& run, const std::filesystem::path& folder) {
   Exporter exporter(run, folder);
   auto truth = run.truth.begin();
+  auto scan = run.scans.begin();
   for (const OdometrySample& sample : run.odometry) {
     while (truth != run.truth.end() && truth->time_us <= sample.time_us) exporter.write(*truth++);
+    while (scan != run.scans.end() && scan->time_ns <= 1000 * sample.time_us) exporter.write(*scan++);
     exporter.write(sample);
   }
   while (truth != run.truth.end()) exporter.write(*truth++);
+  while (scan != run.scans.end()) exporter.write(*scan++);
   exporter.close();
 }
 

@@ -8,6 +8,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/sense.hpp"
+#include "host/lidar/scan.hpp"
 
 /// One drive as it was recorded: odometry and ground truth.
 ///
@@ -57,6 +58,8 @@ struct Run {
   /// What the file has lost. Its first value is the file; its kind is RecordingProblem::cut_off or, for a damaged file that was
   /// accepted, that of DamagedRecording.
   std::optional<Remark> warning = {};
+  /// Of a laser scanner on the robot, on the robot's clock; the place of the scanner is not known.
+  std::vector<lidar::Scan> scans = {};
 };
 
 }  // namespace astro::recording

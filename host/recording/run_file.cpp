@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "host/base/byte_source.hpp"
 #include "host/base/error.hpp"
@@ -32,15 +33,18 @@ struct Streams {
   std::deque<OdometrySample> odometry;
   std::deque<recording::WheelCounts> counts;
   std::deque<TruthSample> truth;
+  std::deque<lidar::Scan> scans;
   bool unreadable = false;
 
   template <class T>
-  void keep(std::deque<T>& stream, const std::optional<T>& sample) {
-    if (odometry.size() + counts.size() + truth.size() >= most)
+  void keep(std::deque<T>& stream, std::optional<T> sample) {
+    if (odometry.size() + counts.size() + truth.size() + scans.size() >= most)
       throw Error(file + " holds more samples than any drive whose recording has its size: it is damaged",
                   RecordingProblem::too_many_samples, {file});
-    if (sample) stream.push_back(*sample);
-    unreadable = unreadable || !sample;
+    if (sample)
+      stream.push_back(std::move(*sample));
+    else
+      unreadable = true;
   }
   void take(const bag::mcap::Channel& channel, const bag::mcap::Schema* schema,
             const bag::mcap::Message& message) {
@@ -51,6 +55,8 @@ struct Streams {
       keep(counts, recording::decode_counts(message.data));
     } else if (schema->name == ros2::pose_stamped_type().name && channel.topic == "/truth") {
       keep(truth, recording::decode_truth(message.data));
+    } else if (schema->name == recording::laser_scan_type().name && channel.topic == "/scan") {
+      keep(scans, recording::decode_scan(message.data));
     }
   }
 };
@@ -142,7 +148,7 @@ template <class Sample>
 std::vector<Sample> drained(std::deque<Sample>& samples) {
   std::vector<Sample> all;
   all.reserve(samples.size());
-  for (; !samples.empty(); samples.pop_front()) all.push_back(samples.front());
+  for (; !samples.empty(); samples.pop_front()) all.push_back(std::move(samples.front()));
   return all;
 }
 
@@ -169,7 +175,7 @@ Run run_in(ByteSource& source, const std::string& name, Damage damage) {
   unwrap(file.streams.truth, file.record.first_truth_heading_rad);
   file.streams.counts = {};
   return {std::move(file.record.info), drained(file.streams.odometry), drained(file.streams.truth),
-          std::move(file.warning)};
+          std::move(file.warning), drained(file.streams.scans)};
 }
 
 }  // namespace
@@ -177,11 +183,14 @@ Run run_in(ByteSource& source, const std::string& name, Damage damage) {
 void write_run(const std::filesystem::path& path, const Run& run) {
   RunWriter writer(path, run.info);
   auto truth = run.truth.begin();
+  auto scan = run.scans.begin();
   for (const OdometrySample& sample : run.odometry) {
     while (truth != run.truth.end() && truth->time_us <= sample.time_us) writer.add(*truth++);
+    while (scan != run.scans.end() && scan->time_ns <= 1000 * sample.time_us) writer.add(*scan++);
     writer.add(sample);
   }
   while (truth != run.truth.end()) writer.add(*truth++);
+  while (scan != run.scans.end()) writer.add(*scan++);
   writer.close(run.info);
 }
 

@@ -64,6 +64,13 @@ void RunWriter::add(const TruthSample& sample) {
   mcap_.write(truth_, time_ns, recording::encode_truth(sample));
 }
 
+void RunWriter::add(const lidar::Scan& scan) {
+  const auto time_ns = static_cast<std::uint64_t>(log_time_.ns(scan.time_ns / 1000));
+  if (!scans_) scans_ = add_topic(mcap_, "/scan", recording::laser_scan_type());
+  describe(time_ns);
+  mcap_.write(*scans_, time_ns, recording::encode_scan(scan));
+}
+
 void RunWriter::close(const RunInfo& final) {
   record_.info = final;
   mcap_.write_metadata({std::string(kRunRecordName), to_map(record_)});

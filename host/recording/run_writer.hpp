@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "host/base/files.hpp"
 #include "host/formats/files/mcap_writer.hpp"
@@ -15,7 +16,7 @@ namespace astro::recording {
 /// (renamed) can be read up to about its last two seconds.
 ///
 /// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
-///         /truth geometry_msgs/msg/PoseStamped (frame truth); run info as Metadata "astrolabe.run". For viewers /tf and,
+///         /truth geometry_msgs/msg/PoseStamped (frame truth); if there are scans, /scan sensor_msgs/msg/LaserScan; run info as Metadata "astrolabe.run". For viewers /tf and,
 ///         if the run knows the robot's sizes, /joint_states and /robot_description (robot_messages.hpp).
 /// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
 ///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others at their
@@ -29,6 +30,7 @@ class RunWriter {
 
   void add(const OdometrySample& sample);
   void add(const TruthSample& sample);
+  void add(const lidar::Scan& scan);
   /// `final` replaces the info given at the start. Nothing may be added afterwards.
   void close(const RunInfo& final);
 
@@ -42,6 +44,7 @@ class RunWriter {
   RobotMessages robot_;
   bool described_ = false;
   std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0;
+  std::optional<std::uint16_t> scans_;  // from the first scan on
 };
 
 }  // namespace astro::recording

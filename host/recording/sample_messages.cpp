@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "host/formats/cdr/codec.hpp"
+#include "host/formats/messages/sensors.hpp"
 
 namespace astro::recording {
 namespace {
@@ -34,6 +36,11 @@ const ros2::RosType& wheel_counts_type() {
   return type;
 }
 
+const ros2::RosType& laser_scan_type() {
+  static const ros2::RosType type = ros2::ros_type<ros2::msg::LaserScan>();
+  return type;
+}
+
 Bytes encode_odometry(const OdometrySample& sample) {
   ros2::msg::Odometry message;
   message.header = {to_stamp(sample.time_us), std::string(ros2::kOdomFrame)};
@@ -54,6 +61,21 @@ Bytes encode_truth(const TruthSample& sample) {
   message.header = {to_stamp(sample.time_us), std::string(ros2::kTruthFrame)};
   message.pose = sample.valid ? ros2::planar_pose(sample.x_m, sample.y_m, sample.theta_rad)
                               : ros2::msg::Pose{{kNan, kNan, kNan}, {kNan, kNan, kNan, kNan}};
+  return ros2::encode(message);
+}
+
+Bytes encode_scan(const lidar::Scan& scan) {
+  const auto beams = static_cast<double>(scan.ranges_m.size());
+  ros2::msg::LaserScan message;
+  message.header = {ros2::msg::to_time(scan.time_ns), "laser"};
+  message.angle_min = static_cast<float>(scan.first_angle_rad);
+  message.angle_max = static_cast<float>(scan.first_angle_rad + (beams - 1) * scan.angle_step_rad);
+  message.angle_increment = static_cast<float>(scan.angle_step_rad);
+  message.time_increment = static_cast<float>(scan.beam_interval_s);
+  message.scan_time = static_cast<float>(beams * scan.beam_interval_s);
+  message.range_min = static_cast<float>(scan.range_min_m);
+  message.range_max = static_cast<float>(scan.range_max_m);
+  message.ranges = scan.ranges_m;
   return ros2::encode(message);
 }
 
@@ -87,6 +109,18 @@ std::optional<TruthSample> decode_truth(ByteView bytes) {
   sample.theta_rad = ros2::heading_of(message->pose.orientation);
   sample.valid = !std::isnan(sample.x_m) && !std::isnan(sample.y_m);
   return sample;
+}
+
+std::optional<lidar::Scan> decode_scan(ByteView bytes) {
+  auto message = ros2::decode<ros2::msg::LaserScan>(bytes);
+  if (!message) return std::nullopt;
+  return lidar::Scan{ros2::msg::nanoseconds(message->header.stamp),
+                     static_cast<double>(message->angle_min),
+                     static_cast<double>(message->angle_increment),
+                     static_cast<double>(message->time_increment),
+                     static_cast<double>(message->range_min),
+                     static_cast<double>(message->range_max),
+                     std::move(message->ranges)};
 }
 
 }  // namespace astro::recording

@@ -4,6 +4,7 @@
 
 #include "host/base/bytes.hpp"
 #include "host/formats/messages/ros_messages.hpp"
+#include "host/lidar/scan.hpp"
 #include "host/recording/run.hpp"
 
 /// The samples of a run as ROS 2 messages. Times are the robot's clock in `header.stamp`, which takes +-2^31 s and whole
@@ -18,17 +19,21 @@ struct WheelCounts {
 };
 
 const ros2::RosType& wheel_counts_type();  // astrolabe_msgs/msg/WheelCounts: stamp, left, right
+const ros2::RosType& laser_scan_type();    // sensor_msgs/msg/LaserScan
 
 Bytes encode_odometry(const OdometrySample& sample);  // all but the counts
 Bytes encode_counts(const WheelCounts& counts);
 /// A sample that is not valid becomes a pose of NaNs, which viewers draw as a gap; a valid one whose heading
 /// is NaN becomes a position with an orientation of NaNs.
 Bytes encode_truth(const TruthSample& sample);
+/// Angles, limits and the time between beams become floats, as in any LaserScan. The frame is "laser".
+Bytes encode_scan(const lidar::Scan& scan);
 
 /// Nothing if the message is too short for its type. theta is in (-pi, pi]; orientations that are not planar
 /// are reduced to their rotation about z, whatever the sign of the quaternion.
 std::optional<OdometrySample> decode_odometry(ByteView message);
 std::optional<WheelCounts> decode_counts(ByteView message);
 std::optional<TruthSample> decode_truth(ByteView message);
+std::optional<lidar::Scan> decode_scan(ByteView message);
 
 }  // namespace astro::recording

@@ -187,6 +187,9 @@ void prepare(SimOptions& options, std::size_t flash_bytes) {
   check_flash(options.server.flash, flash_bytes);
   remove_dead_link(options.server.pty);
   remove_dead_link(options.server.second_pty);
+  if (!options.server.room) return;
+  options.server.scanner_pty = options.server.pty.string() + ".lidar";
+  remove_dead_link(options.server.scanner_pty);
 }
 
 void serve(simulation::Server& server, const std::string& what) {
@@ -194,6 +197,8 @@ void serve(simulation::Server& server, const std::string& what) {
   const auto link = link_in_runtime_folder(pty);
   console::say(fmt::format("{} is at {}", what, pty.string()));
   for (const std::string& url : server.tracker().urls()) console::say("its pose is at " + url);
+  if (server.config().room)
+    console::say("its laser scanner is at lidar:" + server.config().scanner_pty.string());
   console::say(fmt::format("next: astrolabe info --port {}   (Ctrl-C here ends it)", pty.string()));
   server.run(console::interrupted);
 }

@@ -17,7 +17,7 @@ struct SimOptions {
 
 void add_sim_options(console::Command command, SimOptions& options);
 
-/// Chooses the path of the pty if none is named; throws astro::Error if the flash file cannot be a robot's.
+/// Chooses the path of the pty if none is named, and that of a scanner; throws astro::Error if the flash file cannot be a robot's.
 void prepare(SimOptions& options, std::size_t flash_bytes);
 
 /// Prints where the robot is and serves it until Ctrl-C. `what`: "a simulated robot".

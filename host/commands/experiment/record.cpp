@@ -83,6 +83,10 @@ class StreamedRecording {
     run_->add(sample);
     if (csv_) csv_->add(sample);
   }
+  void add(const lidar::Scan& scan) {
+    open();
+    run_->add(scan);
+  }
   void close() {
     open();
     run_->close(info_);
@@ -146,11 +150,13 @@ void listen(RecordOptions& options) {
   StreamedRecording streamed(options, info);
   const experiment::Recorded recorded = experiment::record_until(
       *client, *truth,
-      {[&](const auto& sample) { streamed.add(sample); }, [&](const auto& sample) { streamed.add(sample); }},
+      {[&](const auto& sample) { streamed.add(sample); }, [&](const auto& sample) { streamed.add(sample); },
+       [&](const auto& scan) { streamed.add(scan); }},
       done);
   progress.clear();
   streamed.close();
-  console::say(fmt::format("{} odometry and {} truth samples", recorded.odometry, recorded.truth));
+  console::say(fmt::format("{} odometry and {} truth samples{}", recorded.odometry, recorded.truth,
+                           recorded.scans == 0 ? "" : fmt::format(", {} scans", recorded.scans)));
   if (recorded.warning)
     throw Error(
         fmt::format("{}; what came before is in '{}'", recorded.warning->sentence, options.out.string()),
@@ -174,9 +180,10 @@ void add_record(console::Command app) {
   add_connection(command, options->connection);
   command
       .add_option("--truth", options->truth.source,
-                  "sim, none, or a tracker: vrpn://HOST/BODY,\nnatnet://HOST/BODY, ros2:/TOPIC")
+                  "sim, none, lidar:PORT (an RPLIDAR on the robot),\nor a tracker: vrpn://HOST/BODY, "
+                  "natnet://HOST/BODY,\nros2:/TOPIC")
       .type_name("SOURCE")
-      .check(truth_source({"sim", "none"}))
+      .check(truth_source({"sim", "none", "lidar"}))
       .capture_default_str();
   options->seconds_option = command
                                 .add_option("--seconds", options->seconds,
@@ -196,6 +203,7 @@ void add_record(console::Command app) {
       "  astrolabe record --out drive.mcap\n"
       "  astrolabe record --lines 3 --spins 2 --circles 2 --truth sim --out programme\n"
       "  astrolabe record --port /dev/ttyACM0 --truth ros2:/vrpn_mocap/robot/pose --out drive.mcap\n"
+      "  astrolabe record --port /dev/ttyACM0 --truth lidar:/dev/ttyUSB0 --out drive.mcap\n"
       "  astrolabe record --port /dev/ttyACM0 --seconds 30 --out drive.mcap --csv drive");
   command.callback([options] { options->runs.named() ? drive(*options) : listen(*options); });
 }

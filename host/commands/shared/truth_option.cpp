@@ -10,6 +10,7 @@
 #include "host/console/console.hpp"
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/live/live_source.hpp"
+#include "host/truth/live/scanner_source.hpp"
 #include "host/truth/live/socket_source.hpp"
 
 namespace astro::commands {
@@ -25,10 +26,16 @@ std::unique_ptr<truth::Source> open_tracker(const std::string& address) {
   return source;
 }
 
+std::unique_ptr<truth::Source> open_scanner(const std::string& port) {
+  auto source = std::make_unique<truth::ScannerSource>(port);
+  console::say("laser scanner: " + source->description());
+  return source;
+}
+
 /// "sim, manual, vrpn://HOST/BODY, natnet://HOST/BODY or ros2:/TOPIC"
 std::string choice_of(const std::vector<std::string>& words) {
   std::string choice;
-  for (const std::string& word : words) choice += word + ", ";
+  for (const std::string& word : words) choice += (word == "lidar" ? "lidar:PORT" : word) + ", ";
   return choice + "vrpn://HOST/BODY, natnet://HOST/BODY or ros2:/TOPIC";
 }
 
@@ -37,8 +44,9 @@ std::string choice_of(const std::vector<std::string>& words) {
 console::Check truth_source(std::vector<std::string> words) {
   advise(kTruthAdvice);
   return [words = std::move(words)](const std::string& word) -> std::string {
-    const std::string kind = film_named(word) ? "film" : word;
-    if (std::find(words.begin(), words.end(), kind) != words.end()) return "";
+    const std::string kind = film_named(word) ? "film" : truth::scanner_port_in(word) ? "lidar" : word;
+    if (std::find(words.begin(), words.end(), kind) != words.end())
+      return word == "lidar" ? "'lidar' names no port: write lidar:PORT, as lidar:/dev/ttyUSB0" : "";
     if (!truth::is_tracker_url(word))
       return "'" + word + "' is not a source of ground truth: choose " + choice_of(words);
     try {
@@ -85,6 +93,7 @@ std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::
   if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
   if (option.source == "film") return std::make_unique<truth::LaterSource>("film");
   if (option.source == "none") return std::make_unique<truth::NoSource>();
+  if (const auto scanner = truth::scanner_port_in(option.source)) return open_scanner(*scanner);
   if (truth::is_tracker_url(option.source)) return open_tracker(option.source);
   throw Error("'" + option.source + "' is not a source of ground truth: choose sim, manual, file or none");
 }

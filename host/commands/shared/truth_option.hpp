@@ -19,6 +19,7 @@ namespace astro::commands {
 ///   file    each run's ground truth is read from a CSV that another program wrote
 ///   film    a phone films the robot's tag, and the film is taken once all runs of a phase are driven (umbmark only)
 ///   none    nothing (record only)
+///   lidar:PORT  a laser scanner on the robot, at a serial port of this computer; scans are recorded, not poses (record only)
 struct TruthOption {
   std::string source;
   std::filesystem::path folder;  // file: where the CSV files appear

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,7 @@
 #include "host/live/dds/discovery.hpp"
 #include "host/live/dds/fast_dds.hpp"
 #include "host/live/dds/participant.hpp"
+#include "host/simulation/room/room_file.hpp"
 #include "host/simulation/server/virtual_tracker.hpp"
 
 namespace astro::commands {
@@ -63,7 +65,8 @@ void RosPosePublisher::send(const simulation::TrackedFrame& frame) {
 }
 
 struct Options : SimOptions {
-  std::string ros_topic;  // "": not in ROS 2
+  std::string ros_topic;       // "": not in ROS 2
+  std::filesystem::path room;  // "": no room, and no scanner
 };
 
 void publish_in_ros2(Options& options) {
@@ -78,8 +81,16 @@ void publish_in_ros2(Options& options) {
   console::say(fmt::format("its pose is at ros2:{}?domain={}", options.ros_topic, discovery.domain));
 }
 
+void furnish(Options& options) {
+  if (options.server.fast)
+    throw console::WrongUsage(
+        "with --fast virtual time runs ahead of the clock that stamps scans: leave it out, or --room");
+  options.server.room = simulation::read_room(options.room);
+}
+
 void run(const Options& wanted) {
   Options options = wanted;
+  if (!options.room.empty()) furnish(options);
   prepare(options, simulation::flash_bytes());
   if (!options.ros_topic.empty()) publish_in_ros2(options);
   simulation::Server server(options.robot, options.mocap, options.server);
@@ -110,10 +121,16 @@ void add_sim(console::Command app) {
         return ros2::is_full_name(topic) ? ""
                                          : "'" + topic + "' is not the full name of a topic, as /ASTRO/pose";
       });
+  command
+      .add_option(
+          "--room", options->room,
+          "walls and people around it, as TOML, and with them a laser scanner on it (RPLIDAR A1) at the path "
+          "of --pty with .lidar added")
+      .type_name("FILE");
   console::examples(
-      command,
-      {"astrolabe sim", "astrolabe sim --pty /tmp/astro --fast", "astrolabe sim --ros2-topic /ASTRO/pose",
-       "astrolabe sim --true-ed 1 --true-wheelbase 0.29 --slip 0 --flash astro.flash"});
+      command, {"astrolabe sim", "astrolabe sim --pty /tmp/astro --fast",
+                "astrolabe sim --ros2-topic /ASTRO/pose", "astrolabe sim --pty /tmp/astro --room flat.toml",
+                "astrolabe sim --true-ed 1 --true-wheelbase 0.29 --slip 0 --flash astro.flash"});
   command.callback([options] { run(*options); });
 }
 

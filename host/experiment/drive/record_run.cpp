@@ -63,6 +63,7 @@ class Collector {
           if (++count_.odometry % kSamplesPerLook == 0) look();
         })) {
     truth_.poll();  // discards samples from before this run
+    truth_.take_scans();
     client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
   }
 
@@ -79,11 +80,11 @@ class Collector {
       throw Error("the robot sent no more telemetry while it stood still: is the link good?");
   }
 
-  /// Stops the stream. Waits for the last truth samples, which may arrive a little later than the odometry.
+  /// Stops the stream. Waits for the last truth samples and the last scan, which may arrive a little later than the odometry.
   void finish() {
     client_.request(protocol::SetTelemetry{0, 0});
     look();
-    for (int i = 0; i < 20 && newest_truth_us_ && *newest_truth_us_ + 100'000 < newest_us_; ++i) {
+    for (int i = 0; i < 20 && (lags(newest_truth_us_) || lags(newest_scan_us_)); ++i) {
       client_.pump(20ms);
       look();
     }
@@ -98,9 +99,15 @@ class Collector {
     sink_.odometry(sample);
     moved_(sample);
   }
+  bool lags(const std::optional<std::int64_t>& newest_us) const {
+    return newest_us && *newest_us + 100'000 < newest_us_;
+  }
   void look() {
     std::vector<recording::TruthSample> samples = truth_.poll();
+    std::vector<lidar::Scan> scans = truth_.take_scans();
     if (!truth_time_.known()) return;
+    for (lidar::Scan& scan : scans) take(std::move(scan));
+    pass_scans_on();
     for (recording::TruthSample& sample : samples) {
       sample.time_us = truth_time_.on_robot_us(sample.time_us);
       newest_truth_us_ = sample.time_us;
@@ -112,6 +119,22 @@ class Collector {
       ++count_.truth;
     }
   }
+  void take(lidar::Scan scan) {
+    constexpr double kMicrosPerSecond = 1e6;
+    scan.time_ns += 1000 * truth_time_.on_robot_us(0);
+    const double lasts_us =
+        kMicrosPerSecond * scan.beam_interval_s * static_cast<double>(scan.ranges_m.size());
+    newest_scan_us_ = scan.time_ns / 1000 + std::llround(lasts_us);
+    early_scans_.push_back(std::move(scan));
+  }
+  void pass_scans_on() {
+    for (; first_us_ && !early_scans_.empty() && early_scans_.front().time_ns <= 1000 * newest_us_;
+         early_scans_.pop_front()) {
+      if (early_scans_.front().time_ns < 1000 * *first_us_) continue;
+      sink_.scan(early_scans_.front());
+      ++count_.scans;
+    }
+  }
 
   robot::Client& client_;
   truth::Source& truth_;
@@ -120,7 +143,8 @@ class Collector {
   Moved moved_;
   Recorded count_;
   std::deque<recording::TruthSample> early_;  // truth later than the newest odometry
-  std::optional<std::int64_t> first_us_, newest_truth_us_, stand_from_us_;
+  std::deque<lidar::Scan> early_scans_;       // the same of scans
+  std::optional<std::int64_t> first_us_, newest_truth_us_, newest_scan_us_, stand_from_us_;
   std::int64_t newest_us_ = 0;
   robot::Subscription subscription_;
 };
@@ -163,7 +187,8 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
   robot::DriveSession drive(client, drive_hooks);
   client.request(protocol::SetPose{});
   const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
-                        [&](const auto& sample) { run.truth.push_back(sample); }};
+                        [&](const auto& sample) { run.truth.push_back(sample); },
+                        [&](const auto& scan) { run.scans.push_back(scan); }};
   Collector collector(client, truth, sink, hooks.moved);
   const auto stand = [&] {
     collector.stand(kRest, hooks.interrupted);
@@ -195,7 +220,7 @@ Recorded record_until(robot::Client& client, truth::Source& truth, const SampleS
       }
     };
   };
-  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth)};
+  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth), guarded(sink.scan)};
   Collector collector(client, truth, guard);
   std::optional<Remark> warning;
   try {

@@ -48,11 +48,12 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
 struct SampleSink {
   std::function<void(const recording::OdometrySample&)> odometry;
   std::function<void(const recording::TruthSample&)> truth;
+  std::function<void(const lidar::Scan&)> scan;
 };
 
 struct Recorded {
-  std::uint64_t odometry = 0, truth = 0;  // samples
-  std::optional<Remark> warning;          // why the recording ended early
+  std::uint64_t odometry = 0, truth = 0, scans = 0;  // samples
+  std::optional<Remark> warning;                     // why the recording ended early
 };
 
 /// Records without driving, until `done` returns true; it is called after each message, at least every 50 ms.

@@ -42,6 +42,20 @@ struct Exported {
   Exported() { export_rosbag(driven(), bag); }
 };
 
+TEST(RosbagExport, HasTheScansOfARunThatHasAny) {
+  Run run = driven();
+  run.scans = {{200'000'000, 0, -0.02F, 0.0005F, 0.125, 12, {1, 2, 3}},
+               {400'000'000, 0, -0.02F, 0.0005F, 0.125, 12, {4}}};
+  const test::TemporaryFolder folder;
+  export_rosbag(run, folder.path() / "scanned");
+  const bag::made_bags::Seen seen = bag::made_bags::read(folder.path() / "scanned");
+  const auto scans = std::ranges::find(seen.report.topics, "/scan", &bag::BagTopic::name);
+  ASSERT_NE(scans, seen.report.topics.end());
+  EXPECT_EQ(scans->type, "sensor_msgs/msg/LaserScan");
+  EXPECT_EQ(scans->messages, 2U);
+  EXPECT_EQ(scans->last_ns - scans->first_ns, 200'000'000);
+}
+
 TEST(RosbagExport, TopicsTimesAndMetadataAgree) {
   const Exported exported;
   const bag::made_bags::Seen seen = bag::made_bags::read(exported.bag);

@@ -110,6 +110,50 @@ TEST(RunFile, WhatIsReadIsWhatWasWritten) {
   }
 }
 
+/// A scan whose numbers are floats, as a message holds them.
+lidar::Scan scan_at(std::int64_t time_ns, std::size_t beams) {
+  lidar::Scan scan{time_ns, 0.5, -0.25, 0.0625, 0.125, 12, {}};
+  for (std::size_t i = 0; i < beams; ++i) scan.ranges_m.push_back(0.1F * static_cast<float>(i));
+  if (beams > 3) scan.ranges_m[3] = std::numeric_limits<float>::quiet_NaN();
+  return scan;
+}
+
+TEST(RunFile, ScansComeBackWithTheirNanoseconds) {
+  const TempFolder folder;
+  recording::Run run = random_run(6, 50, 0);
+  run.scans = {scan_at(-3, 360), scan_at(181'818'181, 7), scan_at(2'000'000'001, 0)};
+  write_run(folder / "run.mcap", run);
+  const recording::Run back = read_run(folder / "run.mcap");
+  expect_same_data(run, back);
+  ASSERT_EQ(back.scans.size(), run.scans.size());
+  for (std::size_t i = 0; i < run.scans.size(); ++i) {
+    const lidar::Scan &a = run.scans[i], &b = back.scans[i];
+    EXPECT_EQ(a.time_ns, b.time_ns);
+    EXPECT_EQ(a.first_angle_rad, b.first_angle_rad);
+    EXPECT_EQ(a.angle_step_rad, b.angle_step_rad);
+    EXPECT_EQ(a.beam_interval_s, b.beam_interval_s);
+    EXPECT_EQ(a.range_min_m, b.range_min_m);
+    EXPECT_EQ(a.range_max_m, b.range_max_m);
+    ASSERT_EQ(a.ranges_m.size(), b.ranges_m.size());
+    for (std::size_t k = 0; k < a.ranges_m.size(); ++k)
+      EXPECT_TRUE(a.ranges_m[k] == b.ranges_m[k] || (std::isnan(a.ranges_m[k]) && std::isnan(b.ranges_m[k])));
+  }
+}
+
+TEST(RunFile, WithoutScansHasNoTopicForThem) {
+  const TempFolder folder;
+  write_run(folder / "run.mcap", random_run(7, 5, 0));
+  const Bytes file = load_file(folder / "run.mcap");
+  recording::Run run = random_run(7, 5, 0);
+  run.scans = {scan_at(0, 4)};
+  write_run(folder / "scanned.mcap", run);
+  const auto says_scan = [](const Bytes& bytes) {
+    return as_text(bytes).find("/scan") != std::string_view::npos;
+  };
+  EXPECT_FALSE(says_scan(file));
+  EXPECT_TRUE(says_scan(load_file(folder / "scanned.mcap")));  // in the summary, which is not compressed
+}
+
 TEST(RunFile, ExtremeNumbersSurvive) {
   const TempFolder folder;
   recording::Run run;
