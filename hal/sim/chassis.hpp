@@ -72,12 +72,14 @@ class Chassis {
     if (e_ != 0.0 && along != 0.0)
       turn /= 1.0 + e_ * along / (along + std::abs(rolled_right_m - rolled_left_m));
     if (std::abs(turn) < kSmall_rad) {
-      // Taylor series: the first omitted term is below 1e-17 relative.
-      const double t = turn * turn;
-      const double sinc = 1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0)));
-      const double cosc =
-          0.5 * turn * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0))));
-      step(along_m, turn, sinc, cosc);
+      // Taylor series: the first omitted term is below 1e-17 relative. Both side by side, because divisions are slow and two fit
+      // into one instruction.
+      const double square = turn * turn;
+      const Two t{square, square};
+      const Two series =
+          1.0 - t / Two{6.0, 12.0} *
+                    (1.0 - t / Two{20.0, 30.0} * (1.0 - t / Two{42.0, 56.0} * (1.0 - t / Two{72.0, 90.0})));
+      step(along_m, turn, series[0], 0.5 * turn * series[1]);
     } else {
       step(along_m, turn, std::sin(turn) / turn, (1.0 - std::cos(turn)) / turn);
     }
@@ -94,6 +96,8 @@ class Chassis {
   double sine() const { return sin_; }
 
  private:
+  using Two [[gnu::vector_size(16)]] = double;
+
   // sinc = sin(turn) / turn, cosc = (1 - cos(turn)) / turn
   void step(double along_m, double turn, double sinc, double cosc) {
     x_m_.add(along_m * (cos_ * sinc - sin_ * cosc));
