@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,8 @@ struct ScannerOnDesk {
   bool motor_turns = true, has_power = true, plugged = true, dtr_runs_motor = false;
   unsigned baud = 0, right_baud = 115'200;
   std::int64_t burst_us = 1000;  // the adapter passes bytes on this often
+  unsigned most_late_ms = 0;     // the computer looks at bytes that have come so much later, at random
+  std::mt19937 random{17};
   std::uint64_t damage_every = 0, passed = 0;
   Bytes on_line, at_host;
 };
@@ -82,6 +85,7 @@ class LineOnDesk : public Line {
     const std::size_t count = std::min(into.size(), desk_->at_host.size());
     std::copy_n(desk_->at_host.begin(), count, into.begin());
     desk_->at_host.erase(desk_->at_host.begin(), desk_->at_host.begin() + static_cast<std::ptrdiff_t>(count));
+    for (auto late_ms = desk_->random() % (desk_->most_late_ms + 1); late_ms > 0; --late_ms) desk_->step();
     return count;
   }
   void run_motor(bool on) override { desk_->dtr_runs_motor = on; }
