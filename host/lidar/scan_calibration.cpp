@@ -1,0 +1,127 @@
+#include "host/lidar/scan_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/lidar/mounting_search.hpp"
+#include "host/lidar/scan_remarks.hpp"
+
+namespace astro::lidar {
+namespace {
+
+constexpr std::size_t kFewestMatches = 10;
+constexpr std::size_t kFewestTurning = 3;  // pairs, without which a mirror image does not show
+
+/// What all drives show, with the scanner thought to sit as `start` says.
+struct Matched {
+  std::vector<Stretch> stretches;
+  std::vector<LongMatch> long_matches;
+  ScanCounts counts;
+};
+
+Matched match_all(std::span<const ScannedDrive> drives, const calibration::WheelFactors& loaded,
+                  const Unknowns& start, bool mirrored) {
+  Matched all;
+  for (const ScannedDrive& drive : drives) {
+    Keyframes keyframes = keyframes_of(drive, loaded, start, mirrored);
+    std::move(keyframes.stretches.begin(), keyframes.stretches.end(), std::back_inserter(all.stretches));
+    all.long_matches.insert(all.long_matches.end(), keyframes.long_matches.begin(),
+                            keyframes.long_matches.end());
+    all.counts += keyframes.counts;
+  }
+  return all;
+}
+
+void require_matches(const ScanCounts& counts) {
+  if (counts.scans == counts.outside)
+    throw Error(fmt::format("none of the {} scans was made while the wheels were recorded", counts.scans),
+                ScanProblem::no_common_time, {fmt::format("{}", counts.scans)});
+  if (counts.matched >= kFewestMatches && counts.matched > counts.unmatched / 2) return;
+  const std::size_t tried = counts.matched + counts.unmatched;
+  throw Error(fmt::format("only {} of {} pairs of scans match as the wheels moved between them: scans may be "
+                          "lost, or not be those of this drive",
+                          counts.matched, tried),
+              ScanProblem::do_not_match, {fmt::format("{}", counts.matched), fmt::format("{}", tried)});
+}
+
+MountingFound require_mounting(std::span<const ScannedDrive> drives, const calibration::WheelFactors& loaded,
+                               bool mirrored) {
+  const MountingFound found = find_mounting(drives, loaded, mirrored);
+  if (!looks_mirrored(found)) return found;
+  const auto percent = [](double share) { return fmt::format("{:.0f}", 100 * share); };
+  throw Error(
+      fmt::format("the scans turn the robot the other way than the wheels: in {} turns {} % of the "
+                  "points match, and {} % if each scan is taken for a mirror image, as of a scanner whose "
+                  "beams run the other way round or that hangs upside down, or if left and right wheel "
+                  "are exchanged",
+                  found.turning, percent(found.overlap), percent(found.mirrored_overlap)),
+      ScanProblem::mirrored,
+      {fmt::format("{}", found.turning), percent(found.overlap), percent(found.mirrored_overlap)});
+}
+
+/// Whether the scanner's place or clock differs so much from what the scans were matched with that they should be matched anew.
+bool elsewhere(const Unknowns& found, const Unknowns& start) {
+  const Unknowns off = (found - start).cwiseAbs();
+  return off(kLeverX) > 0.15 || off(kLeverY) > 0.15 || off(kLeverYaw) > 0.1 || off(kLate) > 0.02;
+}
+
+/// By the derivatives of c_R, c_L and b.
+Eigen::Matrix3d factor_covariance(const Unknowns& unknowns, const Information& covariance,
+                                  const calibration::WheelFactors& loaded) {
+  constexpr double kStep = 1e-6;
+  Eigen::Matrix<double, 3, kUnknowns> by_unknowns;
+  for (int k = 0; k < kUnknowns; ++k) {
+    Unknowns more = unknowns, less = unknowns;
+    more(k) += kStep;
+    less(k) -= kStep;
+    const calibration::WheelFactors a = factors_of(less, loaded), b = factors_of(more, loaded);
+    by_unknowns.col(k) = Eigen::Vector3d{b.c_r - a.c_r, b.c_l - a.c_l, b.b_m - a.b_m} / (2 * kStep);
+  }
+  return by_unknowns * covariance * by_unknowns.transpose();
+}
+
+Freedom all_free(bool late) { return FactorSet{"", true, true, true}.freedom(late); }
+
+}  // namespace
+
+ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> drives,
+                                   const calibration::WheelFactors& loaded, bool mirrored) {
+  constexpr int kMostTimes = 4;
+  const bool late = std::all_of(drives.begin(), drives.end(),
+                                [](const ScannedDrive& drive) { return drive.times_measured; });
+  const MountingFound mounting = require_mounting(drives, loaded, mirrored);
+  Unknowns start = nothing_wrong();
+  start(kLeverYaw) = mounting.yaw_rad;
+  ScanCalibration found;
+  found.loaded = loaded;
+  Matched matched;
+  IteratedFit all;
+  for (int time = 0; time < kMostTimes; ++time) {
+    matched = match_all(drives, loaded, start, mirrored);
+    require_matches(matched.counts);
+    all = iterated_fit(matched.stretches, start, all_free(late), loaded);
+    if (!elsewhere(all.fit.unknowns, start)) break;
+    for (const Unknown place : {kLeverX, kLeverY, kLeverYaw, kLate}) start(place) = all.fit.unknowns(place);
+  }
+  found.choice = choose_factors(matched.stretches, all.stretches, all.at, start, late, loaded);
+  found.judged = can_be_judged(found.choice) && mounting.turning >= kFewestTurning;
+  found.counts = matched.counts;
+  found.unknowns = all.fit.unknowns;
+  found.unknowns_covariance = all.fit.covariance;
+  const Freedom chosen = can_be_judged(found.choice) ? found.choice.set.freedom(late) : all_free(late);
+  const Unknowns used = fit(all.stretches, all.at, start, chosen).unknowns;
+  found.factors = factors_of(used, loaded);
+  found.covariance = factor_covariance(used, all.fit.covariance, loaded);
+  found.scanner = lever_of(used);
+  const auto error = [&](Unknown k) { return std::sqrt(all.fit.covariance(k, k)); };
+  found.scanner_se = {error(kLeverX), error(kLeverY), error(kLeverYaw)};
+  found.late_s = used(kLate);
+  found.late_se_s = late ? error(kLate) : std::numeric_limits<double>::quiet_NaN();
+  found.remarks = remarks_on(matched.long_matches, mounting, found);
+  return found;
+}
+
+}  // namespace astro::lidar

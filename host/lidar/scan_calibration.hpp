@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "host/base/error.hpp"
+#include "host/lidar/factor_choice.hpp"
+#include "host/lidar/keyframes.hpp"
+#include "host/lidar/scanned_drive.hpp"
+
+/// Calibrates the wheels of a robot by the scans of a scanner on it: without a tracker, in any place that has walls.
+namespace astro::lidar {
+
+/// Why scans do not calibrate. Values:
+///   no_common_time  how many scans there are
+///   do_not_match    how many pairs of scans match, and of how many
+///   mirrored        how many turns were looked at, and how many percent of the points match in them, as the scans say and as a
+///                   mirror image
+enum class ScanProblem { no_common_time, do_not_match, mirrored };
+
+/// What the drives do not show, each a clause that names the motion that is missing; or what is odd. Values as in the clause.
+enum class ScanRemark {
+  no_turns,        // b
+  no_bend,         // E_d
+  no_scale,        // S
+  no_place,        // the scanner's x and y
+  no_yaw,          // the scanner's yaw
+  mirror_unknown,  // without turns a mirror image does not show
+  one_direction,   // walls that show motion in one direction only: how many of how many matches
+  unmatched,       // keyframes whose scans do not match: how many of how many
+  gaps,            // the robot drove on without scans: how often
+  outside,         // scans made before or after the wheels were recorded: how many of how many
+  matcher_biased,  // matches over some metres differ from the chain of the matches in between: degrees for each metre
+};
+
+struct ScanCalibration {
+  calibration::WheelFactors loaded, factors;
+  Eigen::Matrix3d
+      covariance;  // of c_R, c_L, b: what these drives leave open, also of factors that stayed as loaded
+  calibration::LeverArm scanner, scanner_se;
+  double late_s = 0, late_se_s = 0;  // the scans' stamps are late; the error is NaN where times mean nothing
+  Unknowns unknowns;                 // all of them free: what the drives show, whether it is used or not
+  Information unknowns_covariance;
+  FactorChoice choice;
+  bool judged =
+      false;  // the drives are long enough, and have turns, without which a mirror image would not show
+  ScanCounts counts;
+  std::vector<Remark> remarks;
+};
+
+/// mirrored: the beams run the other way round than the scans say.
+///
+/// Throws astro::Error of a ScanProblem.
+/// Cost    1 to 3 ms for each 0.4 m that were driven; memory for stretches, not for scans.
+ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> drives,
+                                   const calibration::WheelFactors& loaded, bool mirrored = false);
+
+}  // namespace astro::lidar
