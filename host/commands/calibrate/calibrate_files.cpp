@@ -6,6 +6,7 @@
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
+#include "host/commands/calibrate/scan_truth.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/calibration.hpp"
@@ -24,11 +25,13 @@ void add_calibrate_files(console::Command calibrate) {
     ImportOptions import;
     CalibrationOutput output;
     MlOption ml;
+    std::string scan_topic;
   };
   const auto options = std::make_shared<Options>();
   const console::Command command =
       calibrate.add_subcommand("files", "from wheels and ground truth that other programs recorded");
   add_import(command, options->import);
+  add_scan_topic(command, options->scan_topic);
   add_output(command, options->output);
   add_ml(command, options->ml);
   command.footer(
@@ -45,11 +48,19 @@ void add_calibrate_files(console::Command calibrate) {
       "  0,0,0\n"
       "  4.02,0.11,-1.5\n"
       "  astrolabe calibrate files --wheels 1.csv --truth ends1.csv --wheels 2.csv --truth ends2.csv \\\n"
-      "    --wheel-diameter 0.084 --counts-per-turn 2796.8 --wheelbase 0.2 --out calib.toml");
+      "    --wheel-diameter 0.084 --counts-per-turn 2796.8 --wheelbase 0.2 --out calib.toml\n"
+      "Where the robot has a laser scanner, its scans will do, in a bag or in a log of CARMEN:\n"
+      "  astrolabe calibrate files --wheels intel.log.gz --truth scan:intel.log.gz --wheelbase 0.4");
   command.callback([options] {
     if (!options->import.given())
       throw console::WrongUsage("no drives are named: give --wheels and --truth for each");
     require_no_input(options->output.file, {options->import.robot_file});
+    if (names_scans(options->import) && options->ml.given())
+      throw console::WrongUsage("--K, --sigma-xy, --sigma-theta and --clock do not apply to scans");
+    if (names_scans(options->import))
+      return calibrate_by_scans(options->import, options->output, options->scan_topic);
+    if (!options->scan_topic.empty())
+      throw console::WrongUsage("--scan-topic does not apply here: no --truth is scan:FILE");
     put_out(experiment::calibrate(read_drive_files(options->import),
                                   {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()),
             options->output);

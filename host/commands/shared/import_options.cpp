@@ -94,6 +94,8 @@ RobotGeometry geometry_of(const ImportOptions& options) {
   return geometry.overridden_by(given);
 }
 
+}  // namespace
+
 ImportChoices choices_of(const ImportOptions& options) {
   if (!options.frames.empty() && options.frames.size() != 2)
     throw console::WrongUsage("--truth-frames takes two names, PARENT,CHILD");
@@ -122,6 +124,8 @@ ImportChoices choices_of(const ImportOptions& options) {
   if (options.mirrored != "auto") choices.floor.mirrored = options.mirrored == "yes";
   return choices;
 }
+
+namespace {
 
 constexpr Advice kImportAdvice[] = {
     {importing::ImportProblem::sizes_not_described, ": give --wheel-diameter, or a file with --robot"},

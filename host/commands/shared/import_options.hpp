@@ -39,6 +39,10 @@ void add_body_choice(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);
 void add_geometry_choices(console::Command command, ImportOptions& options);
 
+/// What the options state about the files of drives. Throws console::WrongUsage for a list of the wrong length, and what
+/// importing::read_robot_file throws.
+importing::ImportChoices choices_of(const ImportOptions& options);
+
 /// Films as the truth of recordings of this project; nothing if none is named. Throws as commands::give_truth does.
 void give_films(experiment::RunSet& set, const ImportOptions& options);
 
