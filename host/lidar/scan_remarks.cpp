@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -83,8 +84,10 @@ Mean mean_of(const std::vector<double>& values) {
   return {mean, std::sqrt(squares / (n - 1) / n)};
 }
 
-/// Matches over some metres against the chain of those in between: a bias of the matcher would look like one of the wheels.
-void add_bias(std::span<const LongMatch> long_matches, std::vector<Remark>& remarks) {
+/// Matches over some metres against the chain of those in between: a bias of the matcher would look like one of the wheels. It is
+/// told if it is clear, and larger than what the drives leave open of the bend.
+void add_bias(std::span<const LongMatch> long_matches, double bend_error_radpm,
+              std::vector<Remark>& remarks) {
   constexpr std::size_t kFewest = 10;
   constexpr double kClearly = 3;
   if (long_matches.size() < kFewest) return;
@@ -92,7 +95,7 @@ void add_bias(std::span<const LongMatch> long_matches, std::vector<Remark>& rema
   for (const LongMatch& match : long_matches)
     turned_radpm.push_back(difference(match.direct, match.chained).theta_rad / match.length_m);
   const Mean bias = mean_of(turned_radpm);
-  if (!(std::abs(bias.value) > kClearly * bias.error)) return;
+  if (!(std::abs(bias.value) > std::max(kClearly * bias.error, bend_error_radpm))) return;
   const std::string by = fmt::format("{:.2f}", degrees(std::abs(bias.value)));
   remarks.push_back(
       {fmt::format("matches over some metres turn by {} degrees for each metre less or more than "
@@ -110,7 +113,7 @@ std::vector<Remark> remarks_on(std::span<const LongMatch> long_matches, const Mo
   std::vector<Remark> remarks;
   add_missing_motions(mounting, found, remarks);
   add_counts(found.counts, remarks);
-  add_bias(long_matches, remarks);
+  add_bias(long_matches, std::sqrt(found.unknowns_covariance(kBend, kBend)), remarks);
   return remarks;
 }
 

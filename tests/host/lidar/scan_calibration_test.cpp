@@ -67,6 +67,7 @@ TEST(ScanCalibration, OfARobotThatIsRightIsNotBetter) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const ScanCalibration found = calibrated(both_ways({kLoaded, 2e-6}, {}, seed));
     EXPECT_TRUE(found.judged);
+    EXPECT_FALSE(has(found, ScanRemark::matcher_biased)) << "seed " << seed;
     EXPECT_FALSE(found.choice.better()) << "seed " << seed;
   }
 }
