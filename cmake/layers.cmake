@@ -73,7 +73,7 @@ set(ASTRO_LAYERS
   "host/truth/source            : host/base host/lidar host/recording"
   "host/truth/trackers          : host/base host/formats/cdr host/formats/messages host/truth/source"
   "host/wall                    : common host/base host/calibration/judgement host/calibration/motion host/experiment/analysis host/experiment/files host/robot/client host/robot/motion host/robot/parameters"
-  "host/page/calls              : host/base host/experiment/analysis host/experiment/drive host/experiment/files host/recording host/report host/robot/client host/simulation/robot"
+  "host/page/calls              : host/base host/calibration/judgement host/experiment/analysis host/experiment/drive host/experiment/files host/formats/files host/formats/tables host/import/drives host/import/wheels host/recording host/report host/robot/client host/simulation/robot host/truth/files host/truth/floor"
   "host/page/wasm               : host/base host/page/calls"
   "tests                        : common hal firmware host"
 )
@@ -100,7 +100,7 @@ set(ASTRO_OUTSIDE
   "fmt/                     : host"
   "bzlib.h lz4frame.h zstd.h : host/formats/files"
   "openssl/                 : host/formats/cdr"
-  "nlohmann/                : host/commands host/experiment host/live/foxglove host/page host/report host/simulation/study host/wall"
+  "nlohmann/                : host/commands host/experiment host/import/drives host/live/foxglove host/page host/report host/simulation/study host/wall"
   "sqlite3.h                : host/formats/files"
   "tinyxml2.h               : host/import/wheels"
   "toml++/                  : host/experiment host/simulation/room"

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <map>
-#include <string_view>
 #include <utility>
 
-#include "host/base/text/numbers.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/unused_choices.hpp"
@@ -18,7 +16,9 @@
 #include "host/experiment/files/folder_sessions.hpp"
 #include "host/formats/tables/stated_columns.hpp"
 #include "host/import/drives/robot_geometry.hpp"
+#include "host/import/drives/unused_choice.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
+#include "host/import/wheels/travel_measure.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "host/truth/files/body_choice.hpp"
 #include "host/truth/files/track_problem.hpp"
@@ -27,105 +27,41 @@
 namespace astro::commands {
 namespace {
 
-using importing::ImportChoices;
-using importing::RobotGeometry;
-
-/// "y", "-z", or three numbers between commas.
-std::optional<truth::Direction3> axis_in(std::string_view text) {
-  const bool negative = text.starts_with('-') && text.size() == 2;
-  const std::string_view name = negative ? text.substr(1) : text;
-  if (name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
-    truth::Direction3 axis{0, 0, 0};
-    axis[static_cast<std::size_t>(name[0] - 'x')] = negative ? -1 : 1;
-    return axis;
-  }
-  truth::Direction3 axis{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t comma = text.find(',');
-    if ((i < 2) == (comma == std::string_view::npos)) return std::nullopt;
-    const auto value = typed_number(text.substr(0, comma));
-    if (!value) return std::nullopt;
-    axis[i] = *value;
-    text.remove_prefix(i < 2 ? comma + 1 : text.size());
-  }
-  if (std::hypot(axis[0], axis[1], axis[2]) == 0) return std::nullopt;
-  return axis;
-}
-
 console::Check is_axis() {
   return [](const std::string& word) -> std::string {
-    return axis_in(word) ? ""
-                         : "'" + word + "' is no axis: give x, y, z, -x, -y, -z or three numbers as 0,1,0";
+    return importing::axis_named(word)
+               ? ""
+               : "'" + word + "' is no axis: give x, y, z, -x, -y, -z or three numbers as 0,1,0";
   };
 }
 
-/// Each side's wheels, of which a robot may have several: "front_left+rear_left,front_right+rear_right".
-std::vector<importing::JointPair> joints_in(const std::vector<std::string>& sides) {
-  if (sides.empty()) return {};
-  const auto wheels_in = [](std::string_view side) {
-    std::vector<std::string> wheels;
-    for (std::size_t end = 0; end != std::string_view::npos;
-         side.remove_prefix(std::min(end + 1, side.size())))
-      wheels.emplace_back(side.substr(0, end = side.find('+')));
-    return wheels;
-  };
-  constexpr const char* kForm =
-      "--joints takes two names, LEFT,RIGHT, or as many for each side: LEFT+LEFT,RIGHT+RIGHT";
-  if (sides.size() != 2) throw console::WrongUsage(kForm);
-  const std::vector<std::string> left = wheels_in(sides[0]), right = wheels_in(sides[1]);
-  if (left.size() != right.size()) throw console::WrongUsage(kForm);
-  std::vector<importing::JointPair> pairs;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (left[i].empty() || right[i].empty()) throw console::WrongUsage(kForm);
-    pairs.push_back({left[i], right[i]});
-  }
-  return pairs;
+console::Check within(const importing::Limits& limits, const char* unit) {
+  return console::between(limits.least, limits.most, unit);
 }
 
-RobotGeometry geometry_of(const ImportOptions& options) {
-  RobotGeometry geometry;
-  if (!options.robot_file.empty())
-    geometry = importing::read_robot_file(options.robot_file, options.controller);
-  RobotGeometry given;
-  given.wheel_diameter_m = options.wheel_diameter_m;
-  given.counts_per_turn = options.counts_per_turn;
-  given.wheelbase_m = options.wheelbase_m;
-  if (const auto joints = joints_in(options.joints); !joints.empty()) given.joints = joints.front();
-  return geometry.overridden_by(given);
+/// What is wrong with the options themselves; "" for any other error.
+std::string in_words_of_options(const Error& error) {
+  using enum importing::StatementProblem;
+  if (error.kind() == joints_not_paired)
+    return "--joints takes two names, LEFT,RIGHT, or as many for each side: LEFT+LEFT,RIGHT+RIGHT";
+  if (error.kind() == frames_not_two) return "--truth-frames takes two names, PARENT,CHILD";
+  if (error.kind() == not_paired)
+    return fmt::format("there are {} --wheels and {} --truth: each drive needs both", error.values().at(0),
+                       error.values().at(1));
+  return "";
 }
 
-}  // namespace
-
-ImportChoices choices_of(const ImportOptions& options) {
-  if (!options.frames.empty() && options.frames.size() != 2)
-    throw console::WrongUsage("--truth-frames takes two names, PARENT,CHILD");
-  ImportChoices choices;
-  choices.geometry = geometry_of(options);
-  choices.wheels.table = options.table;
-  choices.wheels.bag.counter_range = options.table.counter_range;
-  choices.wheels.bag.topic = options.wheels_topic;
-  choices.wheels.bag.joints = choices.geometry.joints;
-  if (const auto joints = joints_in(options.joints); !joints.empty())
-    choices.wheels.bag.further.assign(joints.begin() + 1, joints.end());
-  choices.wheels.bag.measure = importing::travel_measure(options.wheels_unit);
-  if (choices.geometry.wheelbase_m) choices.wheels.bag.odometry = choices.geometry.factors();
-  choices.wheels.exchanged = options.swap_wheels;
-  choices.wheels.reversed = options.reverse_wheels;
-  choices.drives_backward = options.drives_backward;
-  choices.truth.body = options.body;
-  choices.truth.columns = options.truth_columns;
-  choices.truth.poses.topic = options.truth_topic;
-  if (!options.frames.empty()) {
-    choices.truth.poses.frame = options.frames[0];
-    choices.truth.poses.child_frame = options.frames[1];
-  }
-  if (!options.up.empty()) choices.floor.up = axis_in(options.up);
-  choices.truth.length_unit = options.unit;
-  if (options.mirrored != "auto") choices.floor.mirrored = options.mirrored == "yes";
-  return choices;
+/// What of the statements is wrong, in words of the options.
+template <typename Statements>
+auto stated(const Statements& statements) try {
+  return statements();
+} catch (const importing::UnusedChoice& unused) {
+  throw wrong_usage(unused);
+} catch (const Error& error) {
+  const std::string words = in_words_of_options(error);
+  if (words.empty()) throw;
+  throw console::WrongUsage(words);
 }
-
-namespace {
 
 constexpr Advice kImportAdvice[] = {
     {importing::ImportProblem::sizes_not_described, ": give --wheel-diameter, or a file with --robot"},
@@ -235,7 +171,7 @@ void add_table_choices(console::Command command, ImportOptions& options) {
           "--counter-range", table.counter_range,
           "how many counts a counter has before it starts\nagain, as 65536 (default: found from the data)")
       .type_name("COUNTS")
-      .check(console::between(2, 1e15, "counts"));
+      .check(within(importing::kCounterRangeLimits, "counts"));
   command
       .add_option(
           "--truth-columns", options.truth_columns,
@@ -278,7 +214,7 @@ void add_tracker_choices(console::Command command, ImportOptions& options) {
       .type_name("AXIS")
       .check(is_axis());
   command.add_option("--truth-unit", options.unit, "the unit of its positions, in place of the file's")
-      .one_of({"m", "cm", "mm"});
+      .one_of({std::begin(importing::kTruthUnits), std::end(importing::kTruthUnits)});
   command.add_option("--truth-mirrored", options.mirrored, "its positions are a mirror image")
       .one_of({"auto", "yes", "no"})
       .capture_default_str();
@@ -295,11 +231,11 @@ void add_geometry_choices(console::Command command, ImportOptions& options) {
   command.add_option("--controller", options.controller, "the controller in a YAML file with several")
       .type_name("NAME");
   command.add_option("--wheel-diameter", options.wheel_diameter_m, "nominal, m")
-      .check(console::between(0.005, 5, "m"));
+      .check(within(importing::kWheelDiameterLimits_m, "m"));
   command.add_option("--counts-per-turn", options.counts_per_turn, "encoder counts in a turn of the wheel")
-      .check(console::between(1, 1e8, "counts"));
+      .check(within(importing::kCountsPerTurnLimits, "counts"));
   command.add_option("--wheelbase", options.wheelbase_m, "as the robot's odometry takes it, m")
-      .check(console::between(0.02, 10, "m"));
+      .check(within(importing::kWheelbaseLimits_m, "m"));
   command.add_flag("--swap-wheels", options.swap_wheels, "left and right are exchanged in the files");
   command.add_flag("--reverse-wheels", options.reverse_wheels,
                    "both encoders count backward when the robot drives\nforward");
@@ -322,6 +258,10 @@ void add_import(console::Command command, ImportOptions& options) {
   add_geometry_choices(command, options);
   add_film_options(command, options.film_figures, "film: ");
   add_session_flag(command, options.session_per_folder);
+}
+
+importing::ImportChoices choices_of(const ImportOptions& options) {
+  return stated([&] { return importing::choices_of(options); });
 }
 
 std::vector<std::filesystem::path> ImportOptions::films() const {
@@ -376,7 +316,8 @@ experiment::RunSet read_filmed_drives(const ImportOptions& options) {
   if (!options.up.empty() || !options.unit.empty() || options.mirrored != "auto" || !options.body.empty())
     throw console::WrongUsage("--up, --truth-unit, --truth-mirrored and --body do not apply to films");
   refuse_unused_choices(options);
-  importing::ImportedDrives drives = importing::import_wheels(options.wheels, choices_of(options));
+  importing::ImportedDrives drives =
+      stated([&] { return importing::import_wheels(options.wheels, importing::choices_of(options)); });
   say_drives(drives);
   if (options.session_per_folder) drives.set.sessions = experiment::sessions_by_folder(options.wheels);
   give_films(drives.set, options);
@@ -388,14 +329,7 @@ experiment::RunSet read_filmed_drives(const ImportOptions& options) {
 experiment::RunSet read_drive_files(const ImportOptions& options) {
   require_film_for(options.film_figures, !options.films().empty());
   if (!options.films().empty()) return read_filmed_drives(options);
-  if (options.wheels.size() != options.truth.size())
-    throw console::WrongUsage(fmt::format("there are {} --wheels and {} --truth: each drive needs both",
-                                          options.wheels.size(), options.truth.size()));
-  refuse_unused_choices(options);
-  std::vector<importing::DriveFiles> files;
-  for (std::size_t i = 0; i < options.wheels.size(); ++i)
-    files.push_back({options.wheels[i], options.truth[i]});
-  importing::ImportedDrives drives = importing::import_drives(files, choices_of(options));
+  importing::ImportedDrives drives = stated([&] { return importing::import_stated(options); });
   if (options.session_per_folder)
     drives.set.sessions = experiment::sessions_by_folder(options.wheels, options.truth);
   say_drives(drives);

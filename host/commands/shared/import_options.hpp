@@ -1,27 +1,19 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "host/commands/shared/film_options.hpp"
 #include "host/console/command_line.hpp"
-#include "host/import/drives/import_drives.hpp"
+#include "host/import/drives/stated_drives.hpp"
 
 /// Options of commands that take drives which other programs recorded.
 namespace astro::commands {
 
-struct ImportOptions {
-  std::vector<std::filesystem::path> wheels, truth;  // of the same length
-  importing::WheelTable table;
-  std::string wheels_topic, wheels_unit, truth_topic, truth_columns, body, up, unit, mirrored = "auto",
-                                                                                     controller;
-  std::vector<std::string> joints, frames;
-  bool swap_wheels = false, reverse_wheels = false, drives_backward = false, session_per_folder = false;
-  std::filesystem::path robot_file;
+/// A truth may be a film, "film:FILE".
+struct ImportOptions : importing::StatedDrives {
+  bool session_per_folder = false;
   FilmOptions film_figures;  // of truths that are films
-  std::optional<double> wheel_diameter_m, counts_per_turn, wheelbase_m;
 
   /// The truths that are films ("film:FILE").
   std::vector<std::filesystem::path> films() const;
@@ -53,8 +45,8 @@ void add_session_flag(console::Command command, bool& session_per_folder);
 /// All of the above.
 void add_import(console::Command command, ImportOptions& options);
 
-/// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage if the numbers of files
-/// differ or an option applies to none of them (unused_choices.hpp), and what importing::import_drives throws.
+/// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage, in words of the options, for
+/// what importing::import_stated refuses of the statements, and what else it throws.
 experiment::RunSet read_drive_files(const ImportOptions& options);
 
 }  // namespace astro::commands

@@ -1,12 +1,16 @@
 #pragma once
 
 #include "host/commands/shared/import_options.hpp"
+#include "host/console/wrong_usage.hpp"
+#include "host/import/drives/unused_choice.hpp"
 
-/// Refuses options that would have no effect, because whoever gives one expects that it counts.
+/// Refuses options that would have no effect, in the names of the options.
 namespace astro::commands {
 
-/// Throws console::WrongUsage naming an option that applies to none of the named files: one about tables of wheels without
-/// tables, one about bags without bags. A missing file counts as any kind, because its reader gives a better error.
+/// The same as a person typed it: "--body does not apply here: ...".
+console::WrongUsage wrong_usage(const importing::UnusedChoice& unused);
+
+/// Throws that for what importing::refuse_unused_choices refuses.
 void refuse_unused_choices(const ImportOptions& options);
 
 /// Throws console::WrongUsage, naming it, if an option about the files of drives is given. Precondition: no such files are
