@@ -6,6 +6,9 @@
 #include <string_view>
 
 #include "host/base/error.hpp"
+#include "host/page/calls/calibrate.hpp"
+#include "host/page/calls/inspect.hpp"
+#include "host/page/calls/remedies.hpp"
 #include "host/page/calls/try_out.hpp"
 
 namespace astro::page {
@@ -18,10 +21,11 @@ struct Call {
   json (*answer)(const json& question, const std::filesystem::path& folder, const Emit& emit);
 };
 
-constexpr std::array kCalls{Call{"try_out", try_out}};
+constexpr std::array kCalls{Call{"calibrate", calibrate}, Call{"inspect", inspect}, Call{"try_out", try_out}};
 
-json refusal(const std::string& sentence, const std::vector<std::string>& values = {}) {
-  return {{"error", {{"sentence", sentence}, {"values", values}}}};
+json refusal(const std::string& sentence, const std::vector<std::string>& values = {},
+             const std::vector<std::string>& remedies = {}) {
+  return {{"error", {{"sentence", sentence}, {"values", values}, {"remedies", remedies}}}};
 }
 
 }  // namespace
@@ -34,7 +38,7 @@ json answer(const std::string& call, const json& question, const std::filesystem
     try {
       return {{"result", each.answer(question, folder, emit)}};
     } catch (const Error& error) {
-      return refusal(error.what(), error.values());
+      return refusal(error.what(), error.values(), remedies(error));
     } catch (const std::exception& error) {  // of a file, or of JSON
       return refusal(error.what());
     }

@@ -12,8 +12,8 @@ namespace astro::page {
 /// Receives what happens while a call is under way: {"event": "run", ...}.
 using Emit = std::function<void(const nlohmann::json&)>;
 
-/// Answers {"result": ...} or, if the call cannot be done, {"error": {"sentence": ..., "values": [...]}}. Throws nothing but
-/// what `emit` throws that is no std::exception.
+/// Answers {"result": ...} or, if the call cannot be done, {"error": {"sentence": ..., "values": [...], "remedies": names of
+/// what can be stated against it (remedies.hpp)}}. Throws nothing but what `emit` throws that is no std::exception.
 ///
 /// `folder`  where files are read and written; paths in questions and answers are relative to it.
 nlohmann::json answer(const std::string& call, const nlohmann::json& question,

@@ -13,6 +13,7 @@
 #include "host/experiment/analysis/report_input.hpp"
 #include "host/experiment/analysis/results.hpp"
 #include "host/experiment/drive/experiment.hpp"
+#include "host/page/calls/question.hpp"
 #include "host/report/report.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/simulation/robot/in_process.hpp"
@@ -27,12 +28,7 @@ constexpr std::size_t kPointsOfAnEvent = 10;
 constexpr std::int64_t kBetweenPoints_us = 100'000;
 
 double within(const json& question, const char* name, double usual, double least, double most) {
-  if (question.contains(name) && !question[name].is_number())
-    throw Error(fmt::format("{} is no number", name));
-  const double value = question.value(name, usual);
-  if (!(value >= least && value <= most))
-    throw Error(fmt::format("{} is {}, and must be from {} to {}", name, value, least, most));
-  return value;
+  return number_in(question, name, least, most).value_or(usual);
 }
 
 sim::Config robot_of(const json& question) {

@@ -1,0 +1,259 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/experiment/analysis/calibration.hpp"
+#include "host/import/drives/import_drives.hpp"
+#include "host/page/calls/calls.hpp"
+#include "tests/host/calibration/ml_drives.hpp"
+#include "tests/host/import/drives/drive_files.hpp"
+#include "tests/support/base/places.hpp"
+#include "tests/support/base/temporary_folder.hpp"
+
+// What the page asks about files that somebody dropped on it.
+namespace astro::page {
+namespace {
+
+namespace fs = std::filesystem;
+using calibration::Trajectory;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class DataCalls : public testing::Test {
+ protected:
+  /// Squares of a robot with known factors.
+  static const std::vector<Trajectory>& drives() {
+    static const std::vector<Trajectory> runs = [] {
+      simulation::study::DriveModel model = calibration::astro_drive();
+      model.metres_per_count = test::kMetresPerCount;
+      model.clock_offset_s = 0.031;
+      return calibration::squares(model, 3, 2);
+    }();
+    return runs;
+  }
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  json ask(const std::string& call, const json& question) const {
+    return answer(call, question, folder_.path(), [](const json&) {});
+  }
+  json inspected(const json& question) const {
+    const json told = ask("inspect", question);
+    EXPECT_TRUE(told.contains("result")) << told;
+    return told.value("result", json::object());
+  }
+  std::string sentence(const std::string& call, const json& question) const {
+    return ask(call, question).at("error").at("sentence");
+  }
+
+  /// wheels1.csv and take1.csv, wheels2.csv ...
+  void write_files() const {
+    int number = 0;
+    for (const Trajectory& drive : drives()) {
+      ++number;
+      test::write_counts(at(fmt::format("wheels{}.csv", number)), drive);
+      test::write_motive(at(fmt::format("take{}.csv", number)), drive);
+    }
+  }
+  static json sizes() {
+    return {{"wheel_diameter", test::kDiameter_m},
+            {"counts_per_turn", test::kCountsPerTurn},
+            {"wheelbase", 0.29}};
+  }
+  static json with(json question, const json& more) {
+    question.update(more);
+    return question;
+  }
+  static json names() {
+    return {"take1.csv", "take2.csv", "take3.csv", "wheels1.csv", "wheels2.csv", "wheels3.csv"};
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(DataCalls, FilesAreRecognisedPairedAndCalibratedAsTheLibrariesDo) {
+  write_files();
+  const json found = inspected({{"files", names()}});
+  for (const json& file : found["files"]) {
+    const bool wheels = file["name"].get<std::string>().starts_with("wheels");
+    EXPECT_EQ(file["wheels"], wheels) << file["name"];
+    EXPECT_EQ(file["truth"], !wheels) << file["name"];
+    EXPECT_EQ(file["problem"], nullptr) << file["problem"];
+  }
+  EXPECT_EQ(found["drives"].dump(),
+            R"([{"truth":"take1.csv","wheels":"wheels1.csv"},{"truth":"take2.csv",)"
+            R"("wheels":"wheels2.csv"},{"truth":"take3.csv","wheels":"wheels3.csv"}])");
+
+  const json told = ask("calibrate", with(sizes(), {{"drives", found["drives"]}}));
+  ASSERT_TRUE(told.contains("result")) << told;
+  importing::ImportChoices choices;
+  choices.geometry.wheel_diameter_m = test::kDiameter_m;
+  choices.geometry.counts_per_turn = test::kCountsPerTurn;
+  choices.geometry.wheelbase_m = 0.29;
+  std::vector<importing::DriveFiles> files;
+  for (int i = 1; i <= 3; ++i)
+    files.push_back({at(fmt::format("wheels{}.csv", i)), at(fmt::format("take{}.csv", i))});
+  const experiment::Calibration expected = experiment::calibrate(importing::import_drives(files, choices).set,
+                                                                 {experiment::MethodChoice::Family::ml, {}});
+  const json& calibration = told["result"]["calibration"];
+  EXPECT_EQ(calibration["c_R"], expected.factors.c_r);
+  EXPECT_EQ(calibration["c_L"], expected.factors.c_l);
+  EXPECT_EQ(calibration["b_m"], expected.factors.b_m);
+  for (const char* name : {"toml", "report", "ros2"})
+    EXPECT_TRUE(fs::exists(at(told["result"][name].get<std::string>()))) << name;
+  EXPECT_EQ(told["result"]["drives"].size(), 3U);
+}
+
+TEST_F(DataCalls, APreviewHasBothEndsOfADriveAndFewPoints) {
+  write_files();
+  const json found = inspected({{"files", {"wheels1.csv", "take1.csv"}}});
+  const Trajectory& drive = drives().front();
+  const json& wheels = found["files"][0]["preview"]["wheels"];
+  ASSERT_EQ(wheels["t_s"].size(), 600U);
+  EXPECT_EQ(wheels["left"][0], 0);
+  EXPECT_NEAR(wheels["t_s"].back().get<double>(), drive.wheels.back().time_s - drive.wheels.front().time_s,
+              1e-6);
+  // The counts are whole, so both ends are off by at most half of one.
+  EXPECT_NEAR(wheels["right"].back().get<double>() * test::kMetresPerCount,
+              drive.wheels.back().right_m - drive.wheels.front().right_m, test::kMetresPerCount);
+  const json& truth = found["files"][1]["preview"]["truth"];
+  EXPECT_LE(truth["t_s"].size(), 600U);
+  EXPECT_NEAR(truth["y_m"][0].get<double>(), test::kHeight_m, 1e-6) << "Motive's y is up";
+}
+
+TEST_F(DataCalls, AColumnOfAnUnknownNameIsMendedByOneStatement) {
+  const Trajectory& drive = drives().front();
+  test::write_lines(at("log.csv"), "stamp_s,a,b,battery\n", drive.wheels, [](const auto& row) {
+    return fmt::format("{:.9f},{},{},12.1", row.time_s, std::llround(row.left_m / test::kMetresPerCount),
+                       std::llround(row.right_m / test::kMetresPerCount));
+  });
+  const json unclear = inspected({{"files", {"log.csv"}}})["files"][0];
+  EXPECT_EQ(unclear["wheels"], true) << "recordings of trackers are known by their form";
+  ASSERT_TRUE(unclear["problem"].is_object()) << unclear;
+  EXPECT_THAT(unclear["problem"]["remedies"], ElementsAre("wheel_columns"));
+  EXPECT_EQ(unclear["table"]["names"], (json{"stamp_s", "a", "b", "battery"}));
+  const json mended =
+      inspected({{"files", {"log.csv"}}, {"wheel_columns", "stamp_s,left_counts,right_counts,-"}});
+  EXPECT_EQ(mended["files"][0]["problem"], nullptr);
+  EXPECT_EQ(mended["files"][0]["inspection"]["columns"]["left"], json{"a"});
+  EXPECT_EQ(mended["files"][0]["inspection"]["columns"]["right"], json{"b"});
+}
+
+TEST_F(DataCalls, EachRoleThatAColumnIsOfferedCanBeRead) {
+  const Trajectory& drive = drives().front();
+  test::write_lines(at("log.csv"), "", drive.wheels, [](const auto& row) {
+    return fmt::format("{:.9f},{:.6f},{:.6f}", row.time_s, row.left_m, row.right_m);
+  });
+  const json roles = inspected({{"files", json::array()}})["roles"]["wheels"];
+  int sides = 0;
+  for (const json& each : roles) {
+    const std::string role = each;
+    if (!role.starts_with("left_")) continue;
+    ++sides;
+    const std::string columns = "time_s," + role + ",right_" + role.substr(5);
+    const json file = inspected({{"files", {"log.csv"}}, {"wheel_columns", columns}})["files"][0];
+    EXPECT_EQ(file["problem"], nullptr) << columns << file["problem"];
+  }
+  EXPECT_EQ(sides, 9) << roles;
+}
+
+TEST_F(DataCalls, ABagIsADriveOfItsOwn) {
+  test::write_bag(at("bag"), drives().front());
+  for (const auto& entry : fs::directory_iterator(at("bag")))
+    if (entry.path().extension() == ".db3") fs::copy(entry.path(), at("drive.db3"));
+  const json found = inspected({{"files", {"drive.db3"}}});
+  EXPECT_EQ(found["drives"].dump(), R"([{"truth":"drive.db3","wheels":"drive.db3"}])");
+  EXPECT_EQ(found["files"][0]["problem"], nullptr) << found["files"][0]["problem"];
+  EXPECT_EQ(found["files"][0]["table"], nullptr);
+  EXPECT_FALSE(found["files"][0]["preview"]["wheels"]["left"].empty());
+  EXPECT_FALSE(found["files"][0]["preview"]["truth"]["x_m"].empty());
+}
+
+TEST_F(DataCalls, WhatIsMissingOrInTheWayIsNamedWithWhatHelps) {
+  write_files();
+  const json drives = {{{"wheels", "wheels1.csv"}, {"truth", "take1.csv"}}};
+  const auto remedies = [&](const json& more) {
+    const json told = ask("calibrate", with({{"drives", drives}}, more));
+    EXPECT_TRUE(told.contains("error")) << told;
+    return told.contains("error") ? told["error"]["remedies"] : json();
+  };
+  EXPECT_THAT(remedies(json::object()), ElementsAre("wheelbase", "robot"));
+  EXPECT_THAT(remedies({{"wheelbase", 0.29}, {"wheel_diameter", 0.084}}),
+              ElementsAre("counts_per_turn", "robot"));
+  EXPECT_THAT(remedies(with(sizes(), {{"swap_wheels", true}})), ElementsAre("swap_wheels", "up"));
+  EXPECT_THAT(remedies(with(sizes(), {{"truth_topic", "/mocap"}})), ElementsAre("truth_topic"))
+      << "no file is a bag";
+  EXPECT_EQ(sentence("calibrate", json::object()),
+            "there are no drives: give files of wheels and of ground truth");
+  EXPECT_EQ(sentence("calibrate", {{"drives", {{{"wheels", "wheels1.csv"}, {"truth", ""}}}}}),
+            "there are 1 files of wheels and 0 of ground truth: each drive needs both");
+}
+
+TEST_F(DataCalls, NoQuestionLeadsOutOfTheFolder) {
+  std::ofstream(at("inside.csv")) << "time_s,left_counts,right_counts\n0,0,0\n1,2,3\n";
+  for (const char* name : {"../inside.csv", "/etc/passwd", "..", ".", "a/b.csv", "folder/../inside.csv"}) {
+    EXPECT_THAT(sentence("inspect", {{"files", {name}}}), HasSubstr("is no name of a file")) << name;
+    EXPECT_THAT(sentence("calibrate", {{"robot", name}}), HasSubstr("is no name of a file")) << name;
+    EXPECT_THAT(sentence("calibrate", {{"drives", {{{"wheels", name}, {"truth", name}}}}}),
+                HasSubstr("is no name of a file"))
+        << name;
+  }
+  EXPECT_THAT(sentence("inspect", {{"files", {""}}}), HasSubstr("is no name of a file"));
+}
+
+TEST_F(DataCalls, WrongTypesAndValuesAreRefusedInASentence) {
+  EXPECT_EQ(sentence("inspect", {{"files", "a.csv"}}), "files is no list");
+  EXPECT_EQ(sentence("inspect", {{"files", {1}}}), "files has an entry that is no text");
+  EXPECT_EQ(sentence("inspect", {{"roles", 1}}), "roles is no object");
+  EXPECT_EQ(sentence("inspect", {{"files", {"a.csv"}}, {"roles", {{"a.csv", "lidar"}}}}),
+            "a file can be wheels, truth, both or none, and not 'lidar'");
+  EXPECT_EQ(sentence("calibrate", {{"wheelbase", "0.3"}}), "wheelbase is no number");
+  EXPECT_EQ(sentence("calibrate", {{"wheelbase", 290}}), "wheelbase is 290, and must be from 0.02 to 10");
+  EXPECT_EQ(sentence("calibrate", {{"per_interval", 1}}), "per_interval is neither true nor false");
+  EXPECT_EQ(sentence("calibrate", {{"drives", 1}}), "drives is no list");
+  EXPECT_EQ(sentence("calibrate", {{"drives", {1}}}), "drives has an entry that is no object");
+  EXPECT_EQ(sentence("calibrate", {{"truth_unit", "ft"}}),
+            "truth_unit is 'ft', and must be one of m, cm, mm");
+}
+
+/// The raw files of a real robot under OptiTrack (Sousa et al.), as their owners wrote them.
+TEST_F(DataCalls, RawFilesOfARealRobotGiveTheFactorsOfTheLibraries) {
+  const fs::path source = support::shared_data() / "sousa_optiodom/square/231220200029";
+  if (!fs::exists(source)) GTEST_SKIP() << "not at hand: " << source.string();
+  json files = json::array();
+  for (const auto& entry : fs::directory_iterator(source)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with("_odo.csv") && !name.ends_with("_opti.csv.gz")) continue;
+    fs::copy(entry.path(), at(name));
+    files.push_back(name);
+  }
+  const json stated = {{"wheel_columns", "time_s,left_counts,right_counts"},
+                       {"per_interval", true},
+                       {"wheel_diameter", 0.084},
+                       {"counts_per_turn", 43.7 * 64},
+                       {"wheelbase", 0.2}};
+  const json found = inspected(with(stated, {{"files", files}}));
+  ASSERT_EQ(found["drives"].size(), 6U) << found["drives"];
+  const json told = ask("calibrate", with(stated, {{"drives", found["drives"]}}));
+  ASSERT_TRUE(told.contains("result")) << told;
+  importing::ImportChoices choices;
+  choices.geometry.wheel_diameter_m = 0.084;
+  choices.geometry.counts_per_turn = 43.7 * 64;
+  choices.geometry.wheelbase_m = 0.2;
+  choices.wheels.table = {"time_s,left_counts,right_counts", true};
+  std::vector<importing::DriveFiles> pairs;
+  for (int run = 1; run <= 6; ++run) {
+    const std::string stem = fmt::format("231220200029_run-{:02}", run);
+    pairs.push_back({source / (stem + "_odo.csv"), source / (stem + "_opti.csv.gz")});
+  }
+  const experiment::Calibration expected = experiment::calibrate(importing::import_drives(pairs, choices).set,
+                                                                 {experiment::MethodChoice::Family::ml, {}});
+  EXPECT_EQ(told["result"]["calibration"]["c_R"], expected.factors.c_r);
+  EXPECT_EQ(told["result"]["calibration"]["c_L"], expected.factors.c_l);
+  EXPECT_EQ(told["result"]["calibration"]["b_m"], expected.factors.b_m);
+}
+
+}  // namespace
+}  // namespace astro::page
