@@ -7,6 +7,8 @@ export interface Backend {
   ask<Answer>(call: string, question: unknown, told: (event: Event_) => void): Promise<Answer>;
   /** A file that an answer names. */
   file(path: string): Promise<Blob>;
+  /** Makes a person's file readable for calls, under its name. */
+  put(file: File): Promise<void>;
 }
 
 /** Something that happens while a question is being answered. */
@@ -15,5 +17,12 @@ export interface Event_ {
   [key: string]: unknown;
 }
 
-/** Why a question was not answered, in a sentence for people. */
-export class Refusal extends Error {}
+/** Why a question was not answered, in a sentence for people, and which statements may help. */
+export class Refusal extends Error {
+  constructor(
+    sentence: string,
+    readonly remedies: string[] = [],
+  ) {
+    super(sentence);
+  }
+}

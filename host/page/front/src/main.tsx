@@ -1,16 +1,60 @@
 import "@picocss/pico/css/pico.min.css";
+import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { render } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import { DataPage } from "./data_page";
 import { TryPage } from "./try_page";
 import { WasmBackend } from "./wasm_backend";
 
 const backend = new WasmBackend();
 
+const kPages = [
+  { at: "#try", name: "Try", title: "Try it on a simulated robot" },
+  { at: "#data", name: "Your data", title: "Calibrate from your data" },
+];
+const page_at = (hash: string) => kPages.find((each) => each.at === hash) ?? kPages[0]!;
+
+/** All pages stay as they are while another is shown, so that nobody loses what was entered or found. */
 function Page() {
+  const [page, turn_to] = useState(page_at(location.hash));
+  useEffect(() => {
+    const turn = () => turn_to(page_at(location.hash));
+    addEventListener("hashchange", turn);
+    return () => removeEventListener("hashchange", turn);
+  }, []);
+  useEffect(() => {
+    document.title = `${page.title} – Astrolabe`;
+  }, [page]);
   return (
-    <main class="container">
-      <TryPage backend={backend} />
-    </main>
+    <>
+      <header class="container">
+        <nav aria-label="Pages">
+          <ul>
+            <li>
+              <strong>Astrolabe</strong>
+            </li>
+          </ul>
+          <ul>
+            {kPages.map((each) => (
+              <li key={each.at}>
+                <a href={each.at} aria-current={each === page ? "page" : undefined}>
+                  {each.name}
+                </a>
+              </li>
+            ))}
+          </ul>
+        </nav>
+      </header>
+      <main class="container">
+        <div hidden={page.at !== "#try"}>
+          <TryPage backend={backend} />
+        </div>
+        <div hidden={page.at !== "#data"}>
+          <DataPage backend={backend} />
+        </div>
+      </main>
+    </>
   );
 }
 

@@ -1,5 +1,7 @@
 import { useRef, useState } from "preact/hooks";
 import type { Backend, Event_ } from "./backend";
+import { type Factors, FactorTable } from "./factors";
+import { save } from "./saving";
 import { type Way, Ways } from "./ways";
 
 /** What a person chooses about the simulated robot, in the units that people see. */
@@ -31,13 +33,6 @@ const question_of = (chosen: Record<string, number>) => ({
   slip: chosen.slip,
   seed: chosen.seed,
 });
-
-interface Factors {
-  c_R: number;
-  c_L: number;
-  b_m: number;
-  e: number;
-}
 
 interface Answer {
   results: {
@@ -72,53 +67,6 @@ function Slider(props: { choice: Choice; value: number; disabled: boolean; set: 
       </span>
     </div>
   );
-}
-
-const kRows = [
-  ["c_R", "c_R", 1, 6, ""],
-  ["c_L", "c_L", 1, 6, ""],
-  ["b_m", "b", 1000, 3, "mm"],
-  ["e", "e", 1, 4, ""],
-] as const;
-
-function FactorTable({ answer }: { answer: Answer }) {
-  const { old, new: found, standard_errors: errors } = answer.results.parameters;
-  const shown = (value: number | undefined | null, scale: number, digits: number) =>
-    value === undefined || value === null ? "–" : (scale * value).toFixed(digits);
-  return (
-    <table>
-      <thead>
-        <tr>
-          <th scope="col">Factor</th>
-          <th scope="col">Before</th>
-          <th scope="col">Found</th>
-          <th scope="col">±</th>
-          <th scope="col">As it was built</th>
-        </tr>
-      </thead>
-      <tbody>
-        {kRows.map(([key, name, scale, digits, unit]) => (
-          <tr key={key}>
-            <th scope="row">
-              {name} {unit && <small>{unit}</small>}
-            </th>
-            <td>{shown(old[key], scale, digits)}</td>
-            <td>{shown(found?.[key], scale, digits)}</td>
-            <td>{shown(errors?.[key], scale, digits)}</td>
-            <td>{shown(answer.built[key], scale, digits)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
-}
-
-function save(name: string, text: string) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: "text/html" }));
-  link.download = name;
-  link.click();
-  URL.revokeObjectURL(link.href);
 }
 
 /** A simulated robot drives squares as one watches, is calibrated, and drives them again. */
@@ -216,10 +164,17 @@ export function TryPage({ backend }: { backend: Backend }) {
         <section aria-label="Result">
           <h2>Result</h2>
           <p>{answer.verdict}</p>
-          <FactorTable answer={answer} />
+          <FactorTable
+            columns={[
+              { title: "Before", factors: answer.results.parameters.old },
+              { title: "Found", factors: answer.results.parameters.new },
+              { title: "±", factors: answer.results.parameters.standard_errors },
+              { title: "As it was built", factors: answer.built },
+            ]}
+          />
           {report && (
             <>
-              <button type="button" class="secondary" onClick={() => save("report.html", report)}>
+              <button type="button" class="secondary" onClick={() => save("report.html", new Blob([report], { type: "text/html" }))}>
                 Save the report
               </button>
               <iframe srcdoc={report} title="Report" sandbox="allow-scripts" />

@@ -30,6 +30,10 @@ export class WasmBackend implements Backend {
     return new Blob([await this.send<Uint8Array<ArrayBuffer>>({ id: ++this.last, kind: "file", path }, () => {})]);
   }
 
+  async put(file: File): Promise<void> {
+    await this.send<null>({ id: ++this.last, kind: "put", file }, () => {});
+  }
+
   private send<Value>(message: ToWorker, told: (event: Event_) => void): Promise<Value> {
     return new Promise<Value>((resolve, reject) => {
       this.waiting.set(message.id, { told, resolve: resolve as (value: unknown) => void, reject });
@@ -44,6 +48,6 @@ export class WasmBackend implements Backend {
     this.waiting.delete(message.id);
     if (message.kind === "answer") waiting.resolve(message.answer);
     else if (message.kind === "file") waiting.resolve(message.bytes);
-    else waiting.reject(new Refusal(message.sentence));
+    else waiting.reject(new Refusal(message.sentence, message.remedies));
   }
 }
