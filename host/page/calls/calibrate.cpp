@@ -21,7 +21,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr const char *kToml = "calib.toml", *kRos2 = "diff_drive_controller.yaml", *kReport = "report.html";
+/// In a folder of their own, so that no file of a person is written over, such as a calib.toml with the robot's sizes.
+constexpr const char *kResults = "results", *kToml = "results/calib.toml",
+                     *kRos2 = "results/diff_drive_controller.yaml", *kReport = "results/report.html";
 
 json drives_of(const importing::ImportedDrives& imported) {
   json drives = json::array();
@@ -62,6 +64,7 @@ json calibrate(const json& question, const fs::path& folder, const Emit& emit) {
   emit({{"event", "imported"}, {"drives", drives}});
   const experiment::Calibration found =
       experiment::calibrate(imported.set, {experiment::MethodChoice::Family::ml, {}});
+  fs::create_directories(folder / kResults);
   experiment::write_calibration(folder / kToml, found);
   report::write_report(folder / kReport, importing::drive_report(imported.set, found));
   json answer = {{"calibration", experiment::to_json(found)},

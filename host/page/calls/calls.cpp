@@ -28,10 +28,18 @@ json refusal(const std::string& sentence, const std::vector<std::string>& values
   return {{"error", {{"sentence", sentence}, {"values", values}, {"remedies", remedies}}}};
 }
 
-}  // namespace
+/// Takes the folder away from each text that names a file in it: whoever asks knows files by their names.
+void make_relative(json& value, const std::string& folder) {
+  if (value.is_string()) {
+    auto& text = value.get_ref<std::string&>();
+    for (std::size_t at; (at = text.find(folder)) != text.npos;) text.erase(at, folder.size());
+  } else if (value.is_structured()) {
+    for (json& each : value) make_relative(each, folder);
+  }
+}
 
-json answer(const std::string& call, const json& question, const std::filesystem::path& folder,
-            const Emit& emit) {
+json answered(const std::string& call, const json& question, const std::filesystem::path& folder,
+              const Emit& emit) {
   for (const Call& each : kCalls) {
     if (each.name != call) continue;
     if (!question.is_object()) return refusal("the question is no object");
@@ -44,6 +52,20 @@ json answer(const std::string& call, const json& question, const std::filesystem
     }
   }
   return refusal("there is no call '" + call + "'", {call});
+}
+
+}  // namespace
+
+json answer(const std::string& call, const json& question, const std::filesystem::path& folder,
+            const Emit& emit) {
+  if (folder.empty()) return answered(call, question, folder, emit);
+  const std::string prefix = (folder / "").string();
+  json told = answered(call, question, folder, [&](json event) {
+    make_relative(event, prefix);
+    emit(event);
+  });
+  make_relative(told, prefix);
+  return told;
 }
 
 }  // namespace astro::page

@@ -106,6 +106,22 @@ TEST_F(DataCalls, FilesAreRecognisedPairedAndCalibratedAsTheLibrariesDo) {
   EXPECT_EQ(told["result"]["drives"].size(), 3U);
 }
 
+TEST_F(DataCalls, AFileThatIsNamedLikeAResultStaysAsItIs) {
+  write_files();
+  const std::string sizes_of_robot =
+      "[parameters]\nwheel_diameter = 0.084\ncounts_per_motor_rev = 4096\nb = 0.29\n";
+  std::ofstream(at("calib.toml")) << sizes_of_robot;
+  const json drives = {{{"wheels", "wheels1.csv"}, {"truth", "take1.csv"}},
+                       {{"wheels", "wheels2.csv"}, {"truth", "take2.csv"}}};
+  EXPECT_EQ(inspected({{"files", {"calib.toml"}}})["files"][0]["robot"], true);
+  json answers[] = {ask("calibrate", {{"drives", drives}, {"robot", "calib.toml"}}),
+                    ask("calibrate", {{"drives", drives}, {"robot", "calib.toml"}})};
+  ASSERT_TRUE(answers[0].contains("result")) << answers[0];
+  EXPECT_EQ(answers[0], answers[1]);
+  std::ifstream kept(at("calib.toml"));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), sizes_of_robot);
+}
+
 TEST_F(DataCalls, APreviewHasBothEndsOfADriveAndFewPoints) {
   write_files();
   const json found = inspected({{"files", {"wheels1.csv", "take1.csv"}}});
@@ -133,6 +149,8 @@ TEST_F(DataCalls, AColumnOfAnUnknownNameIsMendedByOneStatement) {
   EXPECT_EQ(unclear["wheels"], true) << "recordings of trackers are known by their form";
   ASSERT_TRUE(unclear["problem"].is_object()) << unclear;
   EXPECT_THAT(unclear["problem"]["remedies"], ElementsAre("wheel_columns"));
+  EXPECT_THAT(unclear["problem"]["sentence"].get<std::string>(), testing::StartsWith("log.csv:"))
+      << "a person knows the file by this name alone";
   EXPECT_EQ(unclear["table"]["names"], (json{"stamp_s", "a", "b", "battery"}));
   const json mended =
       inspected({{"files", {"log.csv"}}, {"wheel_columns", "stamp_s,left_counts,right_counts,-"}});
