@@ -33,7 +33,7 @@ export function Columns(props: {
   const change = (column: number, role: string) => {
     const next = all.map((i) => {
       if (i === column) return role;
-      const same = side_of(role) !== "" && (side_of(now[i] ?? "") === side_of(role) || recognised(i) === side_of(role));
+      const same = side_of(role) !== "" && (side_of(now[i] ?? "") === side_of(role) || (now[i] === own[i] && recognised(i) === side_of(role)));
       return same ? "-" : (now[i] ?? "-");
     });
     props.state(next.every((each, i) => each === own[i]) ? undefined : next.join(","));

@@ -12,6 +12,8 @@ const problem_of = (error: unknown): Problem =>
     ? { sentence: error.message, remedies: error.remedies }
     : { sentence: error instanceof Error ? error.message : String(error), remedies: [] };
 
+const kLooking = "Looking at the files";
+
 const kRoles = [
   ["wheels", "wheels"],
   ["truth", "ground truth"],
@@ -199,6 +201,10 @@ export function DataPage({ backend }: { backend: Backend }) {
     set_problem(null);
     set_result(null);
   };
+  const look_again = () => {
+    outdate();
+    set_busy(kLooking);
+  };
 
   const add = async (list: FileList | null | undefined) => {
     const added = [...(list ?? [])];
@@ -207,29 +213,38 @@ export function DataPage({ backend }: { backend: Backend }) {
     outdate();
     try {
       for (const file of added) await backend.put(file);
+      set_busy(kLooking);
       set_files((before) => [...new Set([...before, ...added.map((file) => file.name)])]);
       pair(null);
     } catch (error) {
       set_problem(problem_of(error));
+      set_busy("");
     }
-    set_busy("");
   };
 
   const robot = found?.files.find((file) => file.robot)?.name;
   useEffect(() => {
-    if (files.length === 0) return;
+    if (files.length === 0) {
+      ++newest.current;
+      set_busy("");
+      return;
+    }
     const mine = ++newest.current;
-    set_busy("Looking at the files");
+    set_busy(kLooking);
     const question = { files, roles, ...stated, ...(robot && !("robot" in stated) ? { robot } : {}) };
-    backend
-      .ask<Found>("inspect", question, () => {})
-      .then((answer) => mine === newest.current && set_found(answer))
-      .catch((error) => mine === newest.current && set_problem(problem_of(error)))
-      .finally(() => mine === newest.current && set_busy(""));
+    // Not at each digit that somebody types.
+    const soon = setTimeout(() => {
+      backend
+        .ask<Found>("inspect", question, () => {})
+        .then((answer) => mine === newest.current && set_found(answer))
+        .catch((error) => mine === newest.current && set_problem(problem_of(error)))
+        .finally(() => mine === newest.current && set_busy(""));
+    }, 250);
+    return () => clearTimeout(soon);
   }, [files, roles, stated, robot]);
 
   const state = (name: string, value: Statements[string] | undefined) => {
-    outdate();
+    look_again();
     set_stated(({ [name]: _, ...rest }) => (value === undefined ? rest : { ...rest, [name]: value }));
   };
 
@@ -273,7 +288,7 @@ export function DataPage({ backend }: { backend: Backend }) {
                   <strong>{file.name}</strong>
                   {!file.robot && (
                     <select aria-label={`${file.name} is`} value={role_of(file)}
-                      onChange={(event) => { set_roles({ ...roles, [file.name]: event.currentTarget.value }); pair(null); outdate(); }}>
+                      onChange={(event) => { set_roles({ ...roles, [file.name]: event.currentTarget.value }); pair(null); look_again(); }}>
                       {kRoles.map(([role, words]) => (
                         <option value={role} key={role}>{words}</option>
                       ))}

@@ -1,3 +1,4 @@
+import { useState } from "preact/hooks";
 import { bag_of, bodies_of, type Found } from "./drive_files";
 
 /** What a person states beside the files; the names are those of host/page/calls/statements.hpp. What is missing is recognised. */
@@ -84,6 +85,20 @@ export function fields_of(found: Found): Field[] {
 /** An input that a remedy of an error can be pointed to. */
 export const id_of = (name: string) => `statement-${name}`;
 
+/** Holds the text as it is typed, so that nothing that happens meanwhile changes it. */
+function NumberInput(props: { id: string; scale: number; value: number | undefined; set: (value: number | undefined) => void }) {
+  const { scale, value } = props;
+  const [text, type] = useState(value === undefined ? "" : String(Number((value / scale).toPrecision(12))));
+  return (
+    <input id={props.id} type="number" min="0" step="any" value={text}
+      onInput={(event) => {
+        const typed = event.currentTarget.value;
+        type(typed);
+        props.set(typed === "" ? undefined : Number((Number(typed) * scale).toPrecision(15)));
+      }} />
+  );
+}
+
 export function FieldInput(props: { field: Field; value: Statements[string] | undefined; set: (value: Statements[string] | undefined) => void }) {
   const { field, value, set } = props;
   const id = id_of(field.name);
@@ -100,8 +115,7 @@ export function FieldInput(props: { field: Field; value: Statements[string] | un
       <label for={id}>
         {kLabels[field.name]}
         {field.unit && `, ${field.unit}`}
-        <input id={id} type="number" min="0" step="any" value={value === undefined ? "" : Number((Number(value) / field.scale).toPrecision(12))}
-          onChange={(event) => set(event.currentTarget.value === "" ? undefined : Number((Number(event.currentTarget.value) * field.scale).toPrecision(15)))} />
+        <NumberInput id={id} scale={field.scale} value={value as number | undefined} set={set} />
         {hint}
       </label>
     );
