@@ -42,14 +42,14 @@ function(astro_web_library target folder)
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   target_include_directories(${name} SYSTEM PUBLIC ${arg_INCLUDES})
   target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
-  target_compile_options(${name} PRIVATE -w)
+  target_compile_options(${name} PRIVATE -w -Oz)  # they come over a network, and none of them is what takes the time
   add_library(${target} ALIAS ${name})
 endfunction()
 astro_web_library(BZip2::BZip2 bzip2-src INCLUDES .
   SOURCES blocksort.c huffman.c crctable.c randtable.c compress.c decompress.c bzlib.c)
 astro_web_library(PkgConfig::lz4 lz4-src INCLUDES lib DEFINITIONS XXH_NAMESPACE=LZ4_ SOURCES lib/*.c)
 astro_web_library(PkgConfig::sqlite3 sqlite3-src INCLUDES . SOURCES sqlite3.c DEFINITIONS
-  SQLITE_THREADSAFE=0 SQLITE_OMIT_LOAD_EXTENSION SQLITE_OMIT_WAL)
+  SQLITE_THREADSAFE=0 SQLITE_OMIT_LOAD_EXTENSION SQLITE_OMIT_WAL SQLITE_OMIT_JSON SQLITE_OMIT_DEPRECATED SQLITE_OMIT_SHARED_CACHE)
 astro_web_library(PkgConfig::tinyxml2 tinyxml2-src INCLUDES . SOURCES tinyxml2.cpp)
 astro_web_library(PkgConfig::yaml libyaml-src INCLUDES include src SOURCES src/*.c DEFINITIONS
   YAML_VERSION_MAJOR=0 YAML_VERSION_MINOR=2 YAML_VERSION_PATCH=5 YAML_VERSION_STRING="0.2.5")
