@@ -1,0 +1,53 @@
+// The built page in Chromium, from a web server of its own on the loopback.
+import { createReadStream, existsSync } from "node:fs";
+import { createServer } from "node:http";
+import path from "node:path";
+import { library, page } from "../module/places.mjs";
+import { processor_time_s } from "./processor_time.mjs";
+
+const kinds = { ".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".mjs": "text/javascript", ".wasm": "application/wasm" };
+/** With these a page may share memory with its workers; hosts of static files mostly do not send them. */
+const isolation = { "Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp" };
+
+/** Serves build/page; answers its address and how to end it. */
+export function serve({ isolated = false } = {}) {
+  const server = createServer((request, response) => {
+    const wanted = path.join(page, path.normalize(new URL(request.url, "http://host").pathname));
+    const file = wanted.endsWith("/") ? path.join(wanted, "index.html") : wanted;
+    if (!file.startsWith(page) || !existsSync(file)) return response.writeHead(404).end();
+    response.writeHead(200, { "Content-Type": kinds[path.extname(file)] ?? "application/octet-stream", ...(isolated ? isolation : {}) });
+    createReadStream(file).pipe(response);
+  });
+  return new Promise((resolve) =>
+    server.listen(0, "127.0.0.1", () =>
+      resolve({ address: `http://127.0.0.1:${server.address().port}/`, end: () => server.close() }),
+    ),
+  );
+}
+
+/** `use` on `wanted` in a new window, with the times at which it was opened. What the page complains of, and each request beyond its own server, is an error. */
+export async function in_browser(wanted, options, use) {
+  const { chromium } = library("playwright-core");
+  const server = await serve(options);
+  const browser = await chromium.launch({
+    executablePath: process.env.ASTROLABE_CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-dev-shm-usage"],
+  });
+  try {
+    const window = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
+    const complaints = [];
+    window.on("pageerror", (error) => complaints.push(error.message));
+    window.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+    window.on("request", (request) => {
+      if (/^https?:/.test(request.url()) && !request.url().startsWith(server.address))
+        complaints.push(`${request.url()} was asked for`);
+    });
+    const begun = { at_ms: performance.now(), processor_s: processor_time_s() };
+    await window.goto(server.address + wanted);
+    await use(window, begun);
+    if (complaints.length > 0) throw new Error(complaints.join("\n"));
+  } finally {
+    await browser.close();
+    server.end();
+  }
+}

@@ -1,0 +1,119 @@
+// The pages for people with a small screen, at night, without a mouse, or with a screen reader.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { library } from "../module/places.mjs";
+import { in_browser } from "./browser.mjs";
+
+const axe = readFileSync(library.resolve("axe-core/axe.min.js"), "utf8");
+
+/** What axe-core finds, a line each; the report in its frame is a page of its own. */
+async function findings(page) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => globalThis.axe.run({ exclude: [["iframe"]] }, { iframes: false }));
+  return violations.map((each) => `${each.impact} ${each.id}: ${each.nodes.map((node) => node.target).join("; ")}`);
+}
+
+/** Tables of a robot with wheels of 72 mm, 290 mm apart and 2803.2 counts a turn, which winds to and fro for a minute. */
+function drive_files() {
+  const per_metre = 2803.2 / (Math.PI * 0.072), half_base = 0.145, step_s = 0.001;
+  let [x, y, theta, left, right] = [0, 0, 0, 0, 0];
+  const wheels = [], truth = [];
+  for (let i = 0; i <= 62_000; ++i) {
+    const t = i * step_s;
+    if (i % 20 === 0) {
+      wheels.push(`${t.toFixed(3)},${Math.round(left * per_metre)},${Math.round(right * per_metre)}\n`);
+      truth.push(`${t.toFixed(3)},${x.toFixed(6)},${y.toFixed(6)},${theta.toFixed(6)}\n`);
+    }
+    const moves = t > 1 && t < 61;
+    const v = moves ? 0.3 * step_s : 0, turn = moves ? Math.sin(t / 3) * step_s : 0;
+    x += v * Math.cos(theta + turn / 2);
+    y += v * Math.sin(theta + turn / 2);
+    theta += turn;
+    left += v - half_base * turn;
+    right += v + half_base * turn;
+  }
+  const file = (name, head, lines) => ({ name, mimeType: "text/csv", buffer: Buffer.from(`${head}\n${lines.join("")}`) });
+  return [file("wheels.csv", "time_s,left_counts,right_counts", wheels), file("truth.csv", "time_s,x_m,y_m,theta_rad", truth)];
+}
+
+const pages = {
+  "Try, before a drive": ["#try", async () => {}],
+  "Try, with a result": [
+    "#try",
+    async (page) => {
+      await page.getByRole("button", { name: "Drive and calibrate" }).click();
+      await page.getByRole("region", { name: "Result" }).waitFor({ timeout: 120_000 });
+    },
+  ],
+  "Your data, empty": ["#data", async () => {}],
+  "Your data, with files and a refusal": [
+    "#data",
+    async (page) => {
+      await page.getByLabel("Drop files").setInputFiles(drive_files());
+      await page.getByRole("heading", { name: "Drives" }).waitFor({ timeout: 60_000 });
+      for (const closed of await page.locator("details:visible > summary").all()) await closed.click();
+      await page.getByRole("button", { name: "Calibrate", exact: true }).click();
+      await page.getByRole("alert").waitFor({ timeout: 60_000 });
+    },
+  ],
+};
+
+for (const [name, [hash, prepare]] of Object.entries(pages))
+  test(`${name}: light and dark, wide and 390 px, nothing is found by axe-core and nothing is wider than the window`, async () => {
+    await in_browser(hash, {}, async (page) => {
+      await prepare(page);
+      for (const colorScheme of ["light", "dark"])
+        for (const width of [1280, 390]) {
+          await page.emulateMedia({ colorScheme });
+          await page.setViewportSize({ width, height: 900 });
+          assert.deepEqual(await findings(page), [], `${colorScheme}, ${width} px`);
+          const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+          assert.ok(wide <= width, `${wide} px wide in a window of ${width} px`);
+        }
+    });
+  });
+
+/** Presses Tab until `wanted` has the focus. Whatever has it on the way must show that it has. */
+async function tab_to(page, wanted) {
+  for (let i = 0; i < 200; ++i) {
+    await page.keyboard.press("Tab");
+    const shows = await page.evaluate(() => {
+      const style = getComputedStyle(document.activeElement);
+      return document.activeElement === document.body || style.outlineStyle !== "none" || style.boxShadow !== "none";
+    });
+    assert.ok(shows, `the focus is not seen on ${await page.evaluate(() => document.activeElement.outerHTML.slice(0, 120))}`);
+    if (await wanted.evaluate((element) => element === document.activeElement)) return;
+  }
+  assert.fail(`Tab does not lead to ${wanted}`);
+}
+
+test("with the keyboard alone a robot is calibrated, and files are", async () => {
+  await in_browser("", {}, async (page) => {
+    await tab_to(page, page.getByRole("spinbutton", { name: "Which robot" }));
+    await page.keyboard.press("ArrowUp");
+    await tab_to(page, page.getByRole("button", { name: "Drive and calibrate" }));
+    await page.keyboard.press("Enter");
+    await page.getByRole("region", { name: "Result" }).waitFor({ timeout: 120_000 });
+    await page.reload();
+    await tab_to(page, page.getByRole("link", { name: "Your data" }));
+    await page.keyboard.press("Enter");
+    const choose = page.getByLabel("Drop files");
+    await tab_to(page, choose);
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.keyboard.press("Space")]);
+    await chooser.setFiles(drive_files());
+    await page.getByRole("heading", { name: "Drives" }).waitFor({ timeout: 60_000 });
+    for (const [label, value] of [["Wheel diameter", "72"], ["Wheelbase, mm", "290"], ["Counts per turn", "2803.2"]]) {
+      await tab_to(page, page.getByLabel(label));
+      await page.keyboard.type(value);
+    }
+    await tab_to(page, page.getByRole("button", { name: "Calibrate", exact: true }));
+    await page.keyboard.press("Enter");
+    const result = page.getByRole("region", { name: "Result" });
+    await result.or(page.getByRole("alert")).first().waitFor({ timeout: 60_000 });
+    assert.equal(await page.getByRole("alert").count(), 0, (await page.getByRole("alert").allInnerTexts()).join("; "));
+    // The robot is exactly as its sizes say; one minute shows that to far better than this.
+    const row = await result.getByRole("row", { name: /^b mm/ }).innerText();
+    assert.ok(Math.abs(Number(row.split("\t")[2]) - 290) < 1, row);
+  });
+});

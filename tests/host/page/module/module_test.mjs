@@ -1,0 +1,64 @@
+// The module of the page, without a page: under node.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import os from "node:os";
+import path from "node:path";
+import { test } from "node:test";
+import { brotliCompressSync, constants } from "node:zlib";
+import { native_answers, page } from "./places.mjs";
+
+/** Ten robots that differ in all their errors, so that each seed is another experiment. */
+const questions = Array.from({ length: 10 }, (_, i) => ({
+  call: "try_out",
+  question: { seed: i + 1, runs: 2, E_d: 1 + 0.002 * (i - 4), E_b: 1 - 0.003 * (i - 5), S: 1 + 0.001 * i, e: 0.004 * i },
+}));
+
+async function answers_of_module() {
+  // Emscripten 3.1.6 takes node for one with CommonJS, and cannot read a file: address.
+  globalThis.__dirname = page;
+  globalThis.require = createRequire(import.meta.url);
+  const { default: create } = await import(path.join(page, "astrolabe.mjs"));
+  const module = await create({ wasmBinary: readFileSync(path.join(page, "astrolabe.wasm")) });
+  module.FS.mkdir("/work");
+  return questions.map(({ call, question }) => JSON.parse(module.answer(call, JSON.stringify(question), () => {})));
+}
+
+function answers_of_program() {
+  const folder = mkdtempSync(path.join(os.tmpdir(), "page-answers-"));
+  const asked = questions.map((each) => JSON.stringify(each) + "\n").join("");
+  const ran = spawnSync(native_answers, [folder], { input: asked, encoding: "utf8", maxBuffer: 1 << 28 });
+  rmSync(folder, { recursive: true });
+  assert.equal(ran.status, 0, `${native_answers}: ${ran.error ?? ran.stderr}`);
+  return ran.stdout.trim().split("\n").map((line) => JSON.parse(line));
+}
+
+test("ten robots are calibrated by the module as by this machine's own program", async () => {
+  const module = await answers_of_module();
+  const program = answers_of_program();
+  assert.equal(program.length, questions.length);
+  let farthest = 0;
+  questions.forEach(({ question }, i) => {
+    const of_module = module[i].result?.results.parameters.new;
+    const of_program = program[i].result?.results.parameters.new;
+    assert.ok(of_module && of_program, `seed ${question.seed}: ${JSON.stringify(module[i].error ?? program[i].error)}`);
+    for (const name of ["c_R", "c_L", "b_m", "e"]) {
+      const apart = Math.abs(of_module[name] - of_program[name]);
+      farthest = Math.max(farthest, apart);
+      // Both run the same firmware on integers; only their sine and logarithm may differ in a last digit.
+      assert.ok(apart <= 1e-12, `seed ${question.seed}: ${name} is ${of_module[name]} and ${of_program[name]}`);
+    }
+  });
+  console.log(`seeds ${questions[0].question.seed} to ${questions.at(-1).question.seed}: at most ${farthest} apart`);
+});
+
+test("the module comes over the network in at most 1.5 MB", () => {
+  const packed = (name) => {
+    const bytes = readFileSync(path.join(page, name));
+    return brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_LGWIN]: 24 } }).length;
+  };
+  const [wasm, around] = [packed("astrolabe.wasm"), packed("astrolabe.mjs")];
+  console.log(`brotli: astrolabe.wasm ${wasm} bytes, astrolabe.mjs ${around} bytes`);
+  assert.ok(wasm + around <= 1.5e6, `${wasm + around} bytes`);
+});
