@@ -40,7 +40,6 @@ void PathFollower::set_gains(const ParameterSet& set) {
 
 void PathFollower::begin_path(const Pose& pose) {
   reference_.set_pose(pose);
-  heading_ = sin_cos(pose.theta);
   profile_ = Trapezoid{};
   last_ = {};
 }
@@ -49,7 +48,7 @@ PathFollower::Command PathFollower::advance(const Pose& actual) {
   BodyTwist wanted;
   if (!profile_.done()) {
     const Trapezoid::Step step = profile_.advance();
-    move_reference(step.travel * 2048, step.turn * 4096);
+    reference_.advance(step.travel * 2048, step.turn * 4096);
     wanted = {to_umps(step.travel), to_uradps(step.turn)};
   }
   const BodyTwist correction_now = correction(actual, wanted.v_umps);
@@ -62,18 +61,13 @@ PathFollower::Command PathFollower::advance(const Pose& actual) {
   return command;
 }
 
-void PathFollower::move_reference(std::int64_t travel, std::int64_t turn) {
-  if (turn == 0) return reference_.advance_straight(travel, heading_);
-  reference_.advance(travel, turn);
-  heading_ = sin_cos(reference_.pose().theta);
-}
-
 BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) {
   const Pose& reference = reference_.pose();
   const std::int32_t dx_30 = saturate_to<kErrorBits>(saturate32((reference.x - actual.x) >> 10));
   const std::int32_t dy_30 = saturate_to<kErrorBits>(saturate32((reference.y - actual.y) >> 10));
-  const auto cos_30 = static_cast<std::int32_t>(heading_.cos >> 13);
-  const auto sin_30 = static_cast<std::int32_t>(heading_.sin >> 13);
+  const SinCos heading = sin_cos(reference.theta);
+  const auto cos_30 = static_cast<std::int32_t>(heading.cos >> 13);
+  const auto sin_30 = static_cast<std::int32_t>(heading.sin >> 13);
   const std::int32_t along_um = um_from_60(mul_add(mul_wide(dx_30, cos_30), dy_30, sin_30));
   const std::int32_t cross_um = um_from_60(mul_add(mul_wide(dy_30, cos_30), dx_30, -sin_30));
   const std::int32_t turn_32 =

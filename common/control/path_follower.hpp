@@ -19,8 +19,7 @@ namespace astro {
 /// The errors are taken in the reference's frame. Segments that follow one another are one path: the next
 /// begins where the reference has arrived, not where the robot is, so errors do not add up around a square.
 ///
-/// Cost    no division; two sines and cosines in a turn, none on a straight line, whose heading stays; callable from the control
-///         tick.
+/// Cost    constant, two sines and cosines, no division; callable from the control tick.
 /// Source  Kanayama et al., ICRA 1990, linearised.
 class PathFollower {
  public:
@@ -54,12 +53,10 @@ class PathFollower {
 
  private:
   BodyTwist correction(const Pose& actual, std::int32_t v_ref_umps);
-  void move_reference(std::int64_t travel, std::int64_t turn);
 
   Q16 k_along_, k_cross_, k_heading_;
   Trapezoid profile_;
   ArcIntegrator reference_;
-  SinCos heading_ = sin_cos(Angle{});  // of the reference
   BodyTwist last_;
   std::int32_t cross_um_ = 0, heading_urad_ = 0;
   bool close_ = false;

@@ -23,8 +23,6 @@ class ArcIntegrator {
  public:
   /// `travel` in 2^-61 m, `turn` in 2^-64 turn. Always inlined, because both callers are in the tick.
   [[gnu::always_inline]] void advance(std::int64_t travel, std::int64_t turn);
-  /// The same along a straight line, for a caller that has the sine and cosine of the heading.
-  void advance_straight(std::int64_t travel, const SinCos& heading) { move(travel, heading); }
 
   const Pose& pose() const { return pose_; }
   /// Continues from `pose`; carried remainders are dropped.
@@ -35,7 +33,6 @@ class ArcIntegrator {
 
  private:
   static std::int32_t chord_deficit(std::int64_t turn);
-  [[gnu::always_inline]] void move(std::int64_t chord, const SinCos& heading);
 
   Pose pose_;
   std::uint32_t remainder_ = 0;            // 2^-61 m, less than 2^-29 m: travel not yet in the position
@@ -55,17 +52,15 @@ inline std::int32_t ArcIntegrator::chord_deficit(std::int64_t turn) {
   return mul_high(square_34, k1_30 - mul_high(square_34, k2_28 - mul_high(square_34, k3_26)));
 }
 
-inline void ArcIntegrator::move(std::int64_t chord, const SinCos& heading) {
-  chord += remainder_;
-  const auto step_29 = static_cast<std::int32_t>(chord >> 32);
-  remainder_ = static_cast<std::uint32_t>(chord);
-  accumulate(pose_.x, x_rest_, heading.cos, step_29);
-  accumulate(pose_.y, y_rest_, heading.sin, step_29);
-}
-
 inline void ArcIntegrator::advance(std::int64_t travel, std::int64_t turn) {
   const std::int64_t lost = mul_wide(static_cast<std::int32_t>(travel >> 32), chord_deficit(turn));
-  move(travel - lost, sin_cos(pose_.theta + (turn >> 1)));
+  const std::int64_t chord = travel - lost + remainder_;
+  const auto step_29 = static_cast<std::int32_t>(chord >> 32);
+  remainder_ = static_cast<std::uint32_t>(chord);
+
+  const SinCos heading = sin_cos(pose_.theta + (turn >> 1));
+  accumulate(pose_.x, x_rest_, heading.cos, step_29);
+  accumulate(pose_.y, y_rest_, heading.sin, step_29);
 
   std::uint64_t theta = pose_.theta.raw();
   accumulate(pose_.turns, theta, turn);

@@ -112,49 +112,6 @@ TEST(PathFollower, ASquareOfSegmentsEndsWhereItBegan) {
   EXPECT_PRED_FORMAT3(tests::near, tests::metres(follower.reference().y), 0, 2 * tests::kNotYetGiven_m);
 }
 
-/// Lines, arcs and spins, so that the heading now holds and now changes.
-constexpr Segment kMixed[] = {{kMetre_nm, 0, 0, 0},
-                              {0, kTurn_32 / 8, 0, 0},
-                              {kMetre_nm / 2, 0, 0, 0},
-                              {kMetre_nm, kTurn_32 / 6, 0, 0},
-                              {-kMetre_nm / 3, 0, 0, 0},
-                              {0, -kTurn_32 / 3, 0, 0},
-                              {kMetre_nm / 5, -kTurn_32 / 10, 0, 0},
-                              {kMetre_nm / 4, 0, 0, 0}};
-
-TEST(PathFollower, TheReferenceMovesBitForBitAsTheArcsOfThePlan) {
-  const Pose start = pose_at(1, -2, 0.7L);
-  PathFollower follower = follower_at(start);
-  ArcIntegrator arcs;
-  arcs.set_pose(start);
-  for (const Segment& segment : kMixed) {
-    follower.begin(planned(segment));
-    Trapezoid plan = planned(segment);
-    while (!follower.arrived()) {
-      const Trapezoid::Step step = plan.advance();
-      arcs.advance(step.travel * 2048, step.turn * 4096);
-      follower.advance(follower.reference());
-      ASSERT_EQ(follower.reference().x, arcs.pose().x);
-      ASSERT_EQ(follower.reference().y, arcs.pose().y);
-      ASSERT_EQ(follower.reference().theta, arcs.pose().theta);
-    }
-  }
-}
-
-TEST(PathFollower, TakesTheErrorInTheFrameOfTheReferenceInEveryTick) {
-  PathFollower follower = follower_at(pose_at(0, 0, -2));
-  for (const Segment& segment : kMixed) {
-    follower.begin(planned(segment));
-    while (!follower.arrived()) {
-      Pose robot = follower.reference();
-      robot.x += std::int64_t{1} << (Pose::kPositionBits - 6);  // 16 mm away, along the world's x
-      follower.advance(robot);
-      const double cross_um = static_cast<double>(1e6L * errors(follower.reference(), robot).cross_m);
-      EXPECT_NEAR(follower.cross_track_um(), cross_um, 1.5);
-    }
-  }
-}
-
 TEST(PathFollower, WithoutErrorTheCommandIsTheReferencesOwnSpeed) {
   PathFollower follower = follower_at({});
   follower.begin(planned({3 * kMetre_nm, kTurn_32 / 4, 0, 0}));
