@@ -126,6 +126,39 @@ concept System = requires(T& system) {
   noexcept->std::same_as<void>;
 };
 
+/// What a rate gyro measured last, and since when it has been so.
+struct GyroReading {
+  enum class State : std::uint8_t {
+    absent,    // nothing answers, or what answers is no gyro that the board knows
+    starting,  // it is being set up
+    running,
+    failed,  // it has answered before and does not any more; the board tries to start it again
+  };
+  static constexpr std::int16_t kNoTemperature = INT16_MIN;
+  static constexpr std::int16_t kSaturated = 32'000;  // a rate of so many counts may be any rate beyond
+
+  State state = State::absent;
+  std::int16_t temperature_cC = kNoTemperature;  // 0.01 degrees Celsius
+  std::array<std::int16_t, 3> rate{};            // about the sensor's own axes x, y and z, counts
+  std::uint32_t count_nradps = 0;                // what a count is, 1e-9 rad/s
+  std::uint64_t time_us = 0;                     // when the sample came; another time for each sample
+};
+
+/// A rate gyro of three axes, fixed to the robot's body in any way. Optional: a board without one has no `gyro()`, and its
+/// firmware no code for it.
+///   read()  the newest sample. Never waits, and begins the fetching of the next one if the board has to do that. Tick only
+template <class T>
+concept Gyro = requires(T& gyro) {
+  { gyro.read() }
+  noexcept->std::same_as<GyroReading>;
+};
+
+/// A board with a gyro.
+template <class T>
+concept HasGyro = requires(T& board) {
+  requires Gyro<std::remove_reference_t<decltype(board.gyro())>>;
+};
+
 /// A whole board. `hold_tick()` returns a guard for the main loop: while the guard lives the control tick
 /// does not run, so the main loop can use what it shares with the tick. Keep it for microseconds, never
 /// during I/O. The guard cannot be copied.

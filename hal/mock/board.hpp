@@ -48,6 +48,11 @@ struct Encoders {
   hal::EncoderCounts read() noexcept { return counts; }
 };
 
+struct Gyro {
+  hal::GyroReading reading;  // absent until a test sets it
+  hal::GyroReading read() noexcept { return reading; }
+};
+
 struct Battery {
   std::int32_t supply_mV = 12000;
   std::int32_t millivolts() noexcept { return supply_mV; }
@@ -91,6 +96,7 @@ class Board {
   Encoders& encoders() { return encoders_; }
   Motors& motors() { return motors_; }
   Battery& battery() { return battery_; }
+  Gyro& gyro() { return gyro_; }
   Ports& ports() { return ports_; }
   Flash& flash() { return flash_; }
   System& system() { return system_; }
@@ -114,12 +120,13 @@ class Board {
   Encoders encoders_;
   Motors motors_;
   Battery battery_;
+  Gyro gyro_;
   Ports ports_;
   Flash flash_;
   System system_;
   int held_ = 0;
 };
 
-static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");
+static_assert(hal::Board<Board> && hal::HasGyro<Board>, "this port no longer satisfies hal/interface");
 
 }  // namespace astro::mock

@@ -18,6 +18,7 @@ Board::Board(const Config& config)
             Slip(config.seed, at(Side::right), config.slip_m)},
       restart_slip_(config.restart_slip_rad),
       chassis_(true_geometry(config)),
+      gyro_(config),
       wheelbase_m_(config.true_wheelbase_m),
       grip_N_(config.grip_N) {
   if (config.wall && !on_stand_) wall_.emplace(*config.wall, config.body, config.seed);
@@ -36,6 +37,8 @@ void Board::advance_tick() {
   if (!on_stand_)
     chassis_.jump(restart_slip_.advance(wheels_rad[0] * radius_m_[0], wheels_rad[1] * radius_m_[1]));
   if (wheels_rad[0] != 0.0 || wheels_rad[1] != 0.0) roll(wheels_rad);
+  if (gyro_.exists()) [[unlikely]]
+    gyro_.advance(chassis_.pose().theta_rad, clock_.now_us());
 }
 
 // The tyres hand the wall's force on to the wheels, as far as they grip. A tyre that skids moves the body no further and holds its
@@ -91,6 +94,7 @@ void Board::restart(hal::ResetCause cause) {
   motors_.coast();
   ports_.clear();
   system_.restart(cause);
+  gyro_.restart();
 }
 
 }  // namespace astro::sim

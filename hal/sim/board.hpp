@@ -9,6 +9,7 @@
 #include "hal/sim/drivetrain.hpp"
 #include "hal/sim/encoder.hpp"
 #include "hal/sim/flash.hpp"
+#include "hal/sim/gyro.hpp"
 #include "hal/sim/motors.hpp"
 #include "hal/sim/ports.hpp"
 #include "hal/sim/restart_slip.hpp"
@@ -43,6 +44,7 @@ class Board {
   Encoders& encoders() { return encoders_; }
   Motors& motors() { return motors_; }
   Battery& battery() { return battery_; }
+  Gyro& gyro() { return gyro_; }
   Ports& ports() { return ports_; }
   Flash& flash() { return flash_; }
   System& system() { return system_; }
@@ -71,7 +73,12 @@ class Board {
 
   /// The robot's true pose, at the same instant as the encoder counts; starts at the origin.
   Pose truth() const { return chassis_.pose(); }
-  void place(const Pose& pose) { chassis_.place(pose); }
+  void place(const Pose& pose) {
+    chassis_.place(pose);
+    gyro_.place(pose.theta_rad);
+  }
+  /// Turns the robot on the spot, which no wheel notices: a kick.
+  void kick(double turn_rad) { chassis_.jump(turn_rad); }
 
   const Drivetrain& drivetrain() const { return drivetrain_; }
   void set_load(Side side, const WheelLoad& load) {
@@ -102,6 +109,7 @@ class Board {
   std::array<Slip, 2> slip_;
   RestartSlip restart_slip_;
   Chassis chassis_;
+  Gyro gyro_;
   std::uint64_t world_us_ = 0;
   std::optional<Wall> wall_;
   double wheelbase_m_, grip_N_;
@@ -112,6 +120,6 @@ class Board {
   std::array<int, 2> stalled_ticks_{};
 };
 
-static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");
+static_assert(hal::Board<Board> && hal::HasGyro<Board>, "this port no longer satisfies hal/interface");
 
 }  // namespace astro::sim

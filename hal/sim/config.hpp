@@ -42,6 +42,18 @@ struct WallConfig {
   double unevenness_m = 0;  // standard deviation of the surface, at points 0.1 m apart
 };
 
+/// A rate gyro on the body (gyro.hpp). The noise is that of a FXAS21002C.
+struct GyroConfig {
+  double angle_random_walk_rad = 4.363e-4;  // per root second: 0.025 degrees
+  double bias_radps = 0.02;
+  double bias_walk_radps = 1.745e-5;  // per root second: 0.001 degrees a second
+  double bias_per_K_radps = 0;        // for each degree of difference to 25 degrees Celsius
+  double scale = 1.0;                 // what it says of what it turns
+  double lag_s = 0;  // from the motion to the sample, besides half a sample period; whole milliseconds
+  double temperature_C = 25;
+  int axis = 3;  // the sensor's axis that points up: 1 x, 2 y, 3 z; negative: it points down
+};
+
 struct Config {
   // As designed: the parameters of an uncalibrated robot.
   double nominal_diameter_m = 0.072;
@@ -61,6 +73,7 @@ struct Config {
   bool on_stand = false;             // the wheels are off the ground and only move themselves
   Body body;
   std::optional<WallConfig> wall;
+  std::optional<GyroConfig> gyro;
   double grip_N =
       13.0;  // the most a tyre can push before it skids, counted only against a wall: 0.8 of a third of the weight
   Wiring wiring;

@@ -2,6 +2,7 @@
 
 #include "hal/sim/board.hpp"
 #include "tests/contract/board_contract.hpp"
+#include "tests/contract/gyro_contract.hpp"
 #include "tests/contract/io_contract.hpp"
 
 namespace astro::contract {
@@ -15,8 +16,16 @@ class SimRig {
   }
   sim::Board& board() { return board_; }
   void pass_ms(int ms) {
-    for (int i = 0; i < ms; ++i) board_.advance_tick();
+    for (int i = 0; i < ms; ++i) {
+      board_.kick(turning_radps_ * 1e-3);
+      board_.advance_tick();
+    }
   }
+  void turn_body(double rate_radps) { turning_radps_ = rate_radps; }
+  void plug_gyro(bool plugged) {
+    board_.gyro().set_fault(plugged ? sim::GyroFault::none : sim::GyroFault::unplugged);
+  }
+  std::size_t up() { return 2; }
   void set_counts(hal::EncoderCounts counts) { board_.encoders().preset(counts); }
   void turn(hal::EncoderCounts by) { turn_counts(by.left, by.right); }
   Bridge bridge() { return static_cast<Bridge>(board_.motors().state()); }
@@ -46,7 +55,13 @@ class SimRig {
     const double rad = 2.0 * std::numbers::pi / (nominal.counts_per_motor_rev * nominal.gear_ratio);
     board_.encoders().turn({left * rad, right * rad});
   }
-  sim::Board board_{sim::Config{}};
+  static sim::Config with_gyro() {
+    sim::Config config;
+    config.gyro.emplace();
+    return config;
+  }
+  sim::Board board_{with_gyro()};
+  double turning_radps_ = 0;
 };
 
 static_assert(static_cast<int>(Bridge::coast) == static_cast<int>(sim::Bridge::coast));
@@ -55,6 +70,7 @@ static_assert(static_cast<int>(Bridge::drive) == static_cast<int>(sim::Bridge::d
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Sim, BoardContract, SimRig);
 INSTANTIATE_TYPED_TEST_SUITE_P(Sim, IoContract, SimRig);
+INSTANTIATE_TYPED_TEST_SUITE_P(Sim, GyroContract, SimRig);
 
 }  // namespace
 }  // namespace astro::contract

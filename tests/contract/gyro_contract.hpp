@@ -1,0 +1,112 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/contract/rig.hpp"
+
+/// The optional gyro, as hal/interface/board.hpp promises it.
+namespace astro::contract {
+
+/// A rig whose board has a gyro.
+template <class T>
+concept GyroRig = Rig<T> && requires(T& rig, double rate_radps, bool plugged) {
+  requires hal::HasGyro<std::remove_reference_t<decltype(rig.board())>>;
+  rig.turn_body(rate_radps);  // counter-clockwise, for as long as time goes by
+  rig.plug_gyro(plugged);
+  { rig.up() } -> std::same_as<std::size_t>;  // the sensor's axis that points up
+};
+
+template <GyroRig R>
+class GyroContract : public testing::Test {
+ protected:
+  using State = hal::GyroReading::State;
+
+  hal::GyroReading read() { return rig.board().gyro().read(); }
+  /// As a control tick does: once in a millisecond.
+  hal::GyroReading after_ms(int ms) {
+    hal::GyroReading reading;
+    for (int i = 0; i < ms; ++i) {
+      rig.pass_ms(1);
+      reading = read();
+    }
+    return reading;
+  }
+  double rate_radps(const hal::GyroReading& reading, std::size_t axis) const {
+    return reading.rate[axis] * 1e-9 * reading.count_nradps;
+  }
+  std::uint64_t board_us() { return rig.board().clock().now_us(); }
+  R rig;
+};
+TYPED_TEST_SUITE_P(GyroContract);
+
+TYPED_TEST_P(GyroContract, RunsWithinHalfASecond) {
+  EXPECT_EQ(this->after_ms(500).state, hal::GyroReading::State::running);
+}
+
+TYPED_TEST_P(GyroContract, SaysTheRateAboutItsOwnAxes) {
+  for (const double rate_radps : {0.0, 1.0, -2.0, 8.0}) {
+    this->rig.turn_body(rate_radps);
+    this->after_ms(500);
+    double sum[3] = {};
+    constexpr int kSamples = 200;
+    for (int i = 0; i < kSamples; ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sum[axis] += this->rate_radps(this->after_ms(5), axis) / kSamples;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // A sensor's offset at rest is at most 0.06 rad/s, its scale good to 1 % as it comes from its maker.
+      const double expected = axis == this->rig.up() ? rate_radps : 0;
+      EXPECT_NEAR(sum[axis], expected, 0.06 + 0.01 * std::abs(expected)) << axis;
+    }
+  }
+}
+
+TYPED_TEST_P(GyroContract, SaturatesWithoutWrapping) {
+  for (const double rate_radps : {30.0, -30.0}) {
+    this->rig.turn_body(rate_radps);
+    const int counts = this->after_ms(500).rate[this->rig.up()];
+    EXPECT_GE(rate_radps > 0 ? counts : -counts, hal::GyroReading::kSaturated);
+  }
+}
+
+TYPED_TEST_P(GyroContract, EachSampleHasATimeOfItsOwnAndComesOften) {
+  this->after_ms(500);
+  std::uint64_t last_us = this->read().time_us;
+  int samples = 0;
+  for (int ms = 0; ms < 200; ++ms) {
+    const hal::GyroReading reading = this->after_ms(1);
+    EXPECT_GE(reading.time_us, last_us);
+    EXPECT_LE(reading.time_us, this->board_us());
+    samples += reading.time_us != last_us ? 1 : 0;
+    last_us = reading.time_us;
+  }
+  EXPECT_GE(samples, 20) << "100 samples a second or more";
+}
+
+TYPED_TEST_P(GyroContract, ReadingTwiceInATickIsTheSameSample) {
+  const hal::GyroReading first = this->after_ms(500), second = this->read();
+  EXPECT_EQ(first.time_us, second.time_us);
+  EXPECT_EQ(first.rate, second.rate);
+}
+
+TYPED_TEST_P(GyroContract, AGyroThatIsUnpluggedStopsRunningAndComesBack) {
+  this->after_ms(500);
+  this->rig.plug_gyro(false);
+  EXPECT_EQ(this->after_ms(500).state, hal::GyroReading::State::failed);
+  this->rig.plug_gyro(true);
+  EXPECT_EQ(this->after_ms(3000).state, hal::GyroReading::State::running);
+}
+
+TYPED_TEST_P(GyroContract, ABoardWhoseGyroIsNotThereSaysSo) {
+  this->rig.plug_gyro(false);
+  this->rig.restarted_id();
+  EXPECT_EQ(this->after_ms(500).state, hal::GyroReading::State::absent);
+}
+
+REGISTER_TYPED_TEST_SUITE_P(GyroContract, RunsWithinHalfASecond, SaysTheRateAboutItsOwnAxes,
+                            SaturatesWithoutWrapping, EachSampleHasATimeOfItsOwnAndComesOften,
+                            ReadingTwiceInATickIsTheSameSample, AGyroThatIsUnpluggedStopsRunningAndComesBack,
+                            ABoardWhoseGyroIsNotThereSaysSo);
+
+}  // namespace astro::contract
