@@ -7,15 +7,16 @@
 namespace astro {
 namespace {
 
-// 2^-50 m per tick to 1e-6 m/s: * 1000 * 10^6 / 2^50.
+// 2^-50 m per tick to 1e-6 m/s: * 1000 * 10^6 / 2^50. A tick's travel at the fastest legal speed is 0.01 m.
 constexpr std::int32_t to_umps(std::int64_t travel_50) {
-  return saturate32(((travel_50 >> 18) * 1'000'000'000 + (std::int64_t{1} << 31)) >> 32);
+  return mul_high(static_cast<std::int32_t>(travel_50 >> 18), 1'000'000'000);
 }
 
-// 2^-52 turn per tick to 1e-6 rad/s: * 2 pi * 1000 * 10^6 / 2^52.
+// 2^-52 turn per tick to 1e-6 rad/s: * 2 pi * 1000 * 10^6 / 2^52. A tick's turn at the fastest legal yaw rate is 0.05 rad.
 constexpr std::int32_t to_uradps(std::int64_t turn_52) {
-  constexpr std::int64_t kTwoPi_9 = 6'283'185'307;
-  return saturate32(((turn_52 >> 20) * kTwoPi_9 + (std::int64_t{1} << 31)) >> 32);
+  constexpr std::int64_t kTwoPi_9 = 6'283'185'307, kWhole = std::int64_t{1} << 32;
+  const auto turn_32 = static_cast<std::int32_t>(turn_52 >> 20);
+  return turn_32 + mul_high(turn_32, static_cast<std::int32_t>(kTwoPi_9 - kWhole));
 }
 
 // The errors are limited, so that a robot that is far behind hurries but does not jump.
@@ -48,26 +49,45 @@ PathFollower::Command PathFollower::advance(const Pose& actual) {
   BodyTwist wanted;
   if (!profile_.done()) {
     const Trapezoid::Step step = profile_.advance();
-    reference_.advance(step.travel * 2048, step.turn * 4096);
+    move_reference(step);
     wanted = {to_umps(step.travel), to_uradps(step.turn)};
   }
   const BodyTwist correction_now = correction(actual, wanted.v_umps);
   Command command;
-  command.twist = {saturate32(std::int64_t{wanted.v_umps} + correction_now.v_umps),
-                   saturate32(std::int64_t{wanted.omega_uradps} + correction_now.omega_uradps)};
-  command.acceleration = {saturate32(std::int64_t{wanted.v_umps - last_.v_umps} * kTickHz),
-                          saturate32(std::int64_t{wanted.omega_uradps - last_.omega_uradps} * kTickHz)};
+  command.twist = {add_saturated(wanted.v_umps, correction_now.v_umps),
+                   add_saturated(wanted.omega_uradps, correction_now.omega_uradps)};
+  command.acceleration = {saturate32(mul_wide(wanted.v_umps - last_.v_umps, kTickHz)),
+                          saturate32(mul_wide(wanted.omega_uradps - last_.omega_uradps, kTickHz))};
   last_ = wanted;
   return command;
+}
+
+void PathFollower::move_reference(const Trapezoid::Step& step) {
+  if (step.travel == 0) {
+    reference_.spin(step.turn * 4096);
+  } else if (step.turn == 0) {
+    reference_.advance_straight(step.travel * 2048, heading());
+  } else {
+    reference_.advance(step.travel * 2048, step.turn * 4096);
+  }
+}
+
+const SinCos& PathFollower::heading() {
+  const Angle now = reference_.pose().theta;
+  if (!(now == heading_of_)) {
+    heading_ = sin_cos(now);
+    heading_of_ = now;
+  }
+  return heading_;
 }
 
 BodyTwist PathFollower::correction(const Pose& actual, std::int32_t v_ref_umps) {
   const Pose& reference = reference_.pose();
   const std::int32_t dx_30 = saturate_to<kErrorBits>(saturate32((reference.x - actual.x) >> 10));
   const std::int32_t dy_30 = saturate_to<kErrorBits>(saturate32((reference.y - actual.y) >> 10));
-  const SinCos heading = sin_cos(reference.theta);
-  const auto cos_30 = static_cast<std::int32_t>(heading.cos >> 13);
-  const auto sin_30 = static_cast<std::int32_t>(heading.sin >> 13);
+  const SinCos& towards = heading();
+  const auto cos_30 = static_cast<std::int32_t>(towards.cos >> 13);
+  const auto sin_30 = static_cast<std::int32_t>(towards.sin >> 13);
   const std::int32_t along_um = um_from_60(mul_add(mul_wide(dx_30, cos_30), dy_30, sin_30));
   const std::int32_t cross_um = um_from_60(mul_add(mul_wide(dy_30, cos_30), dx_30, -sin_30));
   const std::int32_t turn_32 =

@@ -19,7 +19,7 @@ namespace astro {
 /// The errors are taken in the reference's frame. Segments that follow one another are one path: the next
 /// begins where the reference has arrived, not where the robot is, so errors do not add up around a square.
 ///
-/// Cost    constant, two sines and cosines, no division; callable from the control tick.
+/// Cost    constant, no division; on an arc two sines and cosines, in a spin one, on a line none; callable from the control tick.
 /// Source  Kanayama et al., ICRA 1990, linearised.
 class PathFollower {
  public:
@@ -52,11 +52,16 @@ class PathFollower {
   const Pose& reference() const { return reference_.pose(); }
 
  private:
+  void move_reference(const Trapezoid::Step& step);
+  const SinCos& heading();
   BodyTwist correction(const Pose& actual, std::int32_t v_ref_umps);
 
   Q16 k_along_, k_cross_, k_heading_;
   Trapezoid profile_;
   ArcIntegrator reference_;
+  // Of the angle heading_of_. A line, and a reference that has arrived, need no other.
+  SinCos heading_{0, std::int64_t{1} << SinCos::kFractionBits};
+  Angle heading_of_;
   BodyTwist last_;
   std::int32_t cross_um_ = 0, heading_urad_ = 0;
   bool close_ = false;

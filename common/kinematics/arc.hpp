@@ -22,7 +22,19 @@ namespace astro {
 class ArcIntegrator {
  public:
   /// `travel` in 2^-61 m, `turn` in 2^-64 turn. Always inlined, because both callers are in the tick.
-  [[gnu::always_inline]] void advance(std::int64_t travel, std::int64_t turn);
+  [[gnu::always_inline]] void advance(std::int64_t travel, std::int64_t turn) {
+    advance(travel, turn, sin_cos(pose_.theta + (turn >> 1)));
+  }
+  /// The same bits as advance(travel, 0), for a caller who has the sine and cosine of the heading.
+  [[gnu::always_inline]] void advance_straight(std::int64_t travel, const SinCos& heading) {
+    advance(travel, 0, heading);
+  }
+  /// The same bits as advance(0, turn), without a sine and a cosine.
+  void spin(std::int64_t turn) {
+    std::uint64_t theta = pose_.theta.raw();
+    accumulate(pose_.turns, theta, turn);
+    pose_.theta = Angle::from_raw(theta);
+  }
 
   const Pose& pose() const { return pose_; }
   /// Continues from `pose`; carried remainders are dropped.
@@ -32,6 +44,8 @@ class ArcIntegrator {
   }
 
  private:
+  /// `heading`: halfway through the turn.
+  [[gnu::always_inline]] void advance(std::int64_t travel, std::int64_t turn, const SinCos& heading);
   static std::int32_t chord_deficit(std::int64_t turn);
 
   Pose pose_;
@@ -52,19 +66,16 @@ inline std::int32_t ArcIntegrator::chord_deficit(std::int64_t turn) {
   return mul_high(square_34, k1_30 - mul_high(square_34, k2_28 - mul_high(square_34, k3_26)));
 }
 
-inline void ArcIntegrator::advance(std::int64_t travel, std::int64_t turn) {
+inline void ArcIntegrator::advance(std::int64_t travel, std::int64_t turn, const SinCos& heading) {
   const std::int64_t lost = mul_wide(static_cast<std::int32_t>(travel >> 32), chord_deficit(turn));
   const std::int64_t chord = travel - lost + remainder_;
   const auto step_29 = static_cast<std::int32_t>(chord >> 32);
   remainder_ = static_cast<std::uint32_t>(chord);
 
-  const SinCos heading = sin_cos(pose_.theta + (turn >> 1));
   accumulate(pose_.x, x_rest_, heading.cos, step_29);
   accumulate(pose_.y, y_rest_, heading.sin, step_29);
 
-  std::uint64_t theta = pose_.theta.raw();
-  accumulate(pose_.turns, theta, turn);
-  pose_.theta = Angle::from_raw(theta);
+  spin(turn);
 }
 
 }  // namespace astro
