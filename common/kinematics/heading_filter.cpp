@@ -1,6 +1,7 @@
 #include "common/kinematics/heading_filter.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "common/fixed/saturate.hpp"
 
@@ -15,13 +16,33 @@ constexpr std::int64_t kWalk_16 = 9'328'131;
 // What the wheels are trusted to at rest: 3 urad. It keeps the variance S from vanishing.
 constexpr std::int64_t kLeastSlip = 4'672'615;
 constexpr std::int64_t kMostSlip = std::int64_t{1} << 45;
-constexpr std::int64_t kMostCovariance = std::int64_t{1} << 46;
+constexpr std::int64_t kMostCovariance = std::int64_t{1} << 45;
 constexpr std::int64_t kMostBiasVariance_16 = std::int64_t{1} << 42;
 
 constexpr int kSettle_steps = 10, kLearn_steps = 50, kDisagree_steps = 500;
 // The samples of a stand may have twice the deviation of the sensor's noise.
 constexpr std::int64_t kMostScatter_16 = 4 * HeadingFilter::kGyro << 16;
 constexpr std::int64_t kGate = 36;  // 6 sigma, squared
+
+/// The reciprocal of a positive number for several quotients: at most 2^-15 of them too small. One 32-bit division.
+class Reciprocal {
+ public:
+  explicit Reciprocal(std::int64_t of) {
+    const int bits = 64 - std::countl_zero(static_cast<std::uint64_t>(of));
+    shift_ = bits > 16 ? bits - 16 : 0;
+    // Rounded up, so that no quotient is too large.
+    inverse_32_ = UINT32_MAX / (static_cast<std::uint32_t>(of >> shift_) + 1);
+  }
+  /// value / number in 2^-Bits, for a number of 16 bits or more. |value| <= 2^45.
+  template <int Bits>
+  std::int64_t times(std::int64_t value) const {
+    return (value * inverse_32_) >> (32 - Bits + shift_);
+  }
+
+ private:
+  int shift_;
+  std::int64_t inverse_32_;
+};
 
 }  // namespace
 
@@ -103,8 +124,9 @@ void HeadingFilter::update(std::int64_t variance) {
   constexpr std::int64_t kMostGain_16 = 1 << 26;
   constexpr std::int64_t kMostInnovation_40 = std::int64_t{1} << 34;
   const std::int64_t c_h = clamp_abs(kGyro - (p_hb_ >> 8), kMostCovariance);
-  const std::int64_t gain_h_16 = clamp_abs((c_h * 65536) / variance, kMostGain_16);
-  const std::int64_t gain_b_28 = (p_bb_ << 12) / variance;
+  const Reciprocal inverse(variance);
+  const std::int64_t gain_h_16 = clamp_abs(inverse.times<16>(c_h), kMostGain_16);
+  const std::int64_t gain_b_28 = inverse.times<12>(p_bb_);  // p_bb_ has 16 more
   const std::int64_t r_40 = clamp_abs(innovation_ >> 8, kMostInnovation_40);
   correction_ += static_cast<std::uint64_t>((r_40 * gain_h_16) >> 8);
   bias_ -= (r_40 * gain_b_28) >> 20;

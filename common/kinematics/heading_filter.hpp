@@ -34,7 +34,7 @@ struct HeadingStep {
 ///
 /// Units   increments of 10 ms; heading in 2^-48 turn, variances in (2^-32 turn)^2
 /// Errors  within 0.01 degrees of the same filter in double (tests/common/kinematics). No number is wider than 63 bits.
-/// Cost    constant, two 64-bit divisions; callable from the control tick
+/// Cost    constant, one 32-bit division; callable from the control tick
 /// Source  angle random walk, wheel slip and bias walk as measured on the reference robot and in its gyro's data sheet
 class HeadingFilter {
  public:
