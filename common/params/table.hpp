@@ -52,6 +52,10 @@ enum class Param : std::uint16_t {
   stall_time,
   e,
   kappa0,
+  gyro_axis,
+  gyro_scale,
+  gyro_lag,
+  gyro_slip_stops,
 };
 
 /// THE parameter table: row i has id i + 1. Add a parameter by appending its id above and its row here;
@@ -138,6 +142,15 @@ inline constexpr auto kParamTable = std::to_array<ParamRow>({
                "Curvature effect: gentle arcs turn about b (1 + e), spins about b; 0: both about b"),
     decimal_row(Param::kappa0, "kappa0", "1/b", 6, {0.12, 0.01, 10},
                 "Curvature effect: the curvature of a path, times b, at which half of e acts"),
+    integer_row(
+        Param::gyro_axis, "gyro_axis", "1", {0, -3, 3},
+        "Axis of the gyro that points up: 1 x, 2 y, 3 z, negative if it points down; 0: no gyro is used"),
+    binary_row(Param::gyro_scale, "gyro_scale", "1", 30, {1.0, 0.5, 1.5},
+               "Gyro: the turn that it measures over the true turn"),
+    decimal_row(Param::gyro_lag, "gyro_lag", "s", 3, {0.005, 0, 0.25},
+                "Gyro: time from a motion to its reading, beyond that of the encoders"),
+    integer_row(Param::gyro_slip_stops, "gyro_slip_stops", "1", {0, 0, 1},
+                "1: the robot stops when the gyro notices a turn that the wheels do not; 0: it only says so"),
 });
 
 inline constexpr std::size_t kParamCount = kParamTable.size();

@@ -30,6 +30,22 @@ enum class SegmentOutcome : std::uint8_t { completed, aborted };
 inline constexpr std::array<std::string_view, 2> kSegmentOutcomeNames{"completed", "aborted"};
 constexpr std::span<const std::string_view> names(SegmentOutcome) { return kSegmentOutcomeNames; }
 
+/// What the heading with the gyro rests on. Only in `running` does the gyro count; otherwise the heading goes on as the wheels' does.
+enum class GyroState : std::uint8_t {
+  off,       // the parameter gyro_axis is 0, or the board has none
+  absent,    // no gyro that the board knows has answered
+  starting,  // it is being set up
+  learning,  // its bias is not known: the robot has not stood still for a second
+  running,
+  silent,     // it sends nothing new
+  frozen,     // it sends the same again and again
+  saturated,  // the robot turns faster than it can measure
+  failed,     // it has stopped answering
+};
+inline constexpr std::array<std::string_view, 9> kGyroStateNames{
+    "off", "absent", "starting", "learning", "running", "silent", "frozen", "saturated", "failed"};
+constexpr std::span<const std::string_view> names(GyroState) { return kGyroStateNames; }
+
 /// How a parameter's raw integer becomes a value: raw * 2^exponent, raw * 10^exponent, raw itself, 0 or 1. A
 /// text has no raw value. No parameter has been a flag so far; the number stays reserved for it.
 enum class ParameterKind : std::uint8_t { binary_scaled, decimal_scaled, integer, flag, text };

@@ -43,7 +43,8 @@ using Requests =
                 WheelVoltage, Pause, Resume, GetFaultLog, ApplyParameters, Rest>;
 using Replies = MessageList<Ack, ErrorReply, HelloReply, Pong, Status, ParameterInfo, ParameterValue,
                             FaultReport, FaultLogEntry>;
-using Events = MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>;
+using Events =
+    MessageList<Telemetry, SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed, SlipFound>;
 
 /// The size of the largest frame of these messages, with its 0x00.
 template <Message... M>
@@ -53,6 +54,6 @@ consteval std::size_t largest_frame(MessageList<M...>) {
 inline constexpr std::size_t kMaxReplyFrame = largest_frame(Replies{});
 /// The same for the events other than Telemetry.
 inline constexpr std::size_t kMaxEventFrame =
-    largest_frame(MessageList<SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed>{});
+    largest_frame(MessageList<SegmentDone, FaultRaised, Booted, SegmentStarted, EventsMissed, SlipFound>{});
 
 }  // namespace astro::protocol

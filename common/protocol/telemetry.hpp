@@ -103,6 +103,35 @@ struct PathGroup {
   bool operator==(const PathGroup&) const = default;
 };
 
+struct FusedGroup {
+  std::uint64_t time_us = 0;
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  std::uint64_t theta = 0;
+  std::int32_t turns = 0;
+  std::int32_t rate_uradps = 0;
+  std::int32_t bias_uradps = 0;
+  std::int16_t temperature_cC = INT16_MIN;
+  GyroState gyro{};
+  std::uint16_t slips = 0;
+  static constexpr std::tuple kFields{
+      Field{&FusedGroup::time_us, "time_us", "us", "device time of this pose, at most 10 ms ago"},
+      Field{&FusedGroup::x, "x", "2^-40 m", "base in the odom frame, by wheels and gyro"},
+      Field{&FusedGroup::y, "y", "2^-40 m", "base in the odom frame, by wheels and gyro"},
+      Field{&FusedGroup::theta, "theta", "2^-64 turn", "heading by wheels and gyro"},
+      Field{&FusedGroup::turns, "turns", "turns",
+            "whole turns; with theta they are the heading without wraps"},
+      Field{&FusedGroup::rate_uradps, "rate_uradps", "1e-6 rad/s",
+            "mean yaw rate by the gyro over 10 ms, without its bias"},
+      Field{&FusedGroup::bias_uradps, "bias_uradps", "1e-6 rad/s", "the gyro's bias"},
+      Field{&FusedGroup::temperature_cC, "temperature_cC", "0.01 degC",
+            "of the gyro; -32768: it does not say"},
+      Field{&FusedGroup::gyro, "gyro", "", "whether the gyro counts, or why it does not"},
+      Field{&FusedGroup::slips, "slips", "", "turns that no wheel saw, since start; wraps"},
+  };
+  bool operator==(const FusedGroup&) const = default;
+};
+
 struct Telemetry {
   static constexpr std::uint32_t kPose = 1U << 0;
   static constexpr std::uint32_t kCounts = 1U << 1;
@@ -113,7 +142,8 @@ struct Telemetry {
   static constexpr std::uint32_t kBattery = 1U << 6;
   static constexpr std::uint32_t kState = 1U << 7;
   static constexpr std::uint32_t kPath = 1U << 8;
-  static constexpr std::uint32_t kAll = 0x1FF;
+  static constexpr std::uint32_t kFused = 1U << 9;
+  static constexpr std::uint32_t kAll = 0x3FF;
 
   std::uint64_t device_time_us = 0;
   std::uint32_t fields = 0;
@@ -126,6 +156,7 @@ struct Telemetry {
   BatteryGroup battery{};
   StateGroup state{};
   PathGroup path{};
+  FusedGroup fused{};
 
   static constexpr std::uint8_t kId = 0xC0;
   static constexpr std::string_view kName = "Telemetry";
@@ -143,8 +174,25 @@ struct Telemetry {
       Group{&Telemetry::battery, 6, "battery", "supply"},
       Group{&Telemetry::state, 7, "state", "mode, segment and faults"},
       Group{&Telemetry::path, 8, "path", "how the path is followed"},
+      Group{&Telemetry::fused, 9, "fused", "the pose by wheels and gyro; the odometry's without a gyro"},
   };
   bool operator==(const Telemetry&) const = default;
+};
+
+struct SlipFound {
+  std::uint64_t device_time_us = 0;
+  std::int16_t turn_100urad = 0;
+
+  static constexpr std::uint8_t kId = 0xC6;
+  static constexpr std::string_view kName = "SlipFound";
+  static constexpr std::string_view kDoc =
+      "The gyro has noticed that the robot turned without its wheels: a kick, or a wheel that slipped.";
+  static constexpr std::tuple kFields{
+      Field{&SlipFound::device_time_us, "device_time_us", "us", "when"},
+      Field{&SlipFound::turn_100urad, "turn_100urad", "1e-4 rad",
+            "how far until then, counter-clockwise positive; it may go on"},
+  };
+  bool operator==(const SlipFound&) const = default;
 };
 
 struct SetTelemetry {

@@ -27,13 +27,14 @@ enum class Fault : std::uint8_t {
   runaway,          // a wheel turns against its voltage, or faster than the voltage can turn it
   watchdog,         // the firmware hung or crashed, and was restarted
   stop_timeout,     // the wheels did not come to rest although they were told to
+  gyro_slip,        // the robot turned without its wheels, and gyro_slip_stops is 1
 };
 
-inline constexpr std::array<std::string_view, 16> kFaultNames{
+inline constexpr std::array<std::string_view, 17> kFaultNames{
     "none",           "command_timeout", "link_lost", "driver",       "under_voltage", "over_voltage",
     "over_speed",     "stall",           "encoder",   "tick_overrun", "parameters",    "flash",
-    "emergency_stop", "runaway",         "watchdog",  "stop_timeout"};
-static_assert(kFaultNames.size() == static_cast<std::size_t>(Fault::stop_timeout) + 1);
+    "emergency_stop", "runaway",         "watchdog",  "stop_timeout", "gyro_slip"};
+static_assert(kFaultNames.size() == static_cast<std::size_t>(Fault::gyro_slip) + 1);
 
 constexpr std::span<const std::string_view> names(Fault) { return kFaultNames; }
 

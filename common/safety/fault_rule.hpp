@@ -63,7 +63,7 @@ inline constexpr StateMask kArmed = states(armed, driving, stopping);
 }  // namespace rule_detail
 
 /// THE table of checks, in the order of their numbers: everything that the supervisor raises. The faults
-/// parameters, flash, emergency_stop and watchdog have no row: the start, the flash and hosts report them.
+/// parameters, flash, emergency_stop, watchdog and gyro_slip have no row: the start, the flash, hosts and the gyro report them.
 inline constexpr auto kFaultRules = std::to_array<FaultRule>({
     // A hold time of 0 stands for a parameter, or for the first tick in which the condition is true.
     {Check::command_timeout, Fault::command_timeout, Reaction::ramp, states(State::driving), 0},

@@ -30,10 +30,11 @@ class Robot {
     board_.motors().coast();
     const bool readable = parameters_.load();
     const hal::ResetCause cause = board_.system().reset_cause();
+    const typename TickState<hal::HasGyro<Board>>::Configuration configuration(parameters_.active());
     {
       const auto hold = board_.hold_tick();
-      TickState& state = tick_.state().get(hold);
-      state.drive.configure(parameters_.active());
+      auto& state = tick_.state().get(hold);
+      state.configure(configuration);
       if (!readable) state.drive.raise(Fault::parameters);
       if (cause == hal::ResetCause::watchdog || cause == hal::ResetCause::fault)
         state.drive.raise(Fault::watchdog);

@@ -13,10 +13,11 @@ struct HostEvent {
     segment_completed,
     segment_aborted,
     fault_raised,
-    booted
+    booted,
+    slip_found
   };
   std::uint64_t time_us = 0;
-  std::uint16_t number = 0;  // the segment's tag, the Fault or the ResetCause
+  std::uint16_t number = 0;  // the segment's tag, the Fault, the ResetCause, or the turn in 1e-4 rad
   Kind kind = Kind::booted;
 };
 

@@ -33,7 +33,7 @@ class FaultJournal {
     FaultCircumstances oldest;
     {
       const auto hold = board.hold_tick();
-      TickState& state = shared.get(hold);
+      auto& state = shared.get(hold);
       // With open bridges the robot may still roll.
       if (state.faults.empty() || state.drive.armed() || !state.drive.stopped_without_power()) return;
       oldest = state.faults.pop();

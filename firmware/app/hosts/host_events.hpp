@@ -33,15 +33,20 @@ class HostEvents {
     while (true) {
       SegmentEvent event;
       std::uint32_t fresh = 0;
-      bool none = false;
+      UnseenTurn slip;
+      bool none = false, slipped = false;
       {
         const auto hold = board_.hold_tick();
-        Drive& drive = state_.get(hold).drive;
+        auto& state = state_.get(hold);
+        Drive& drive = state.drive;
+        slipped = state.gyro.take_slip(slip);
         fresh = drive.faults().mask() & ~reported_faults_;
         reported_faults_ = drive.faults().mask();
         none = drive.events().empty();
         if (!none) event = drive.events().pop();
       }
+      if (slipped)
+        log_.note({slip.time_us, static_cast<std::uint16_t>(slip.turn_100urad), HostEvent::Kind::slip_found});
       note_faults(fresh);
       if (none) return;
       log_.note({event.time_us, event.tag, static_cast<HostEvent::Kind>(event.kind)});
@@ -55,7 +60,7 @@ class HostEvents {
     std::uint32_t fresh = 0;
     {
       const auto hold = board_.hold_tick();
-      TickState& state = state_.get(hold);
+      auto& state = state_.get(hold);
       state.faults.watch(state.drive, state.clock.last_us(), state.battery_mv);
       fresh = state.drive.faults().mask() & ~reported_faults_;
       if (!state.drive.clear_faults()) return false;
@@ -104,6 +109,9 @@ class HostEvents {
                                   protocol::FaultRaised{static_cast<Fault>(event.number), event.time_us});
       case HostEvent::Kind::booted:
         return writer_.send_event(port, protocol::Booted{static_cast<protocol::ResetCause>(event.number)});
+      case HostEvent::Kind::slip_found:
+        return writer_.send_event(
+            port, protocol::SlipFound{event.time_us, static_cast<std::int16_t>(event.number)});
     }
     return true;
   }

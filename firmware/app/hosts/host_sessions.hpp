@@ -51,8 +51,10 @@ class HostSessions {
     protocol::Telemetry telemetry;
     {
       const auto hold = board_.hold_tick();
-      const TickState& state = state_.get(hold);
+      const auto& state = state_.get(hold);
       telemetry = snapshot(state.drive, state.clock.last_us(), state.battery_mv);
+      if ((session.telemetry_fields & protocol::Telemetry::kFused) != 0)
+        telemetry.fused = state.gyro.report(state.drive, state.clock.last_us());
     }
     telemetry.fields = session.telemetry_fields;
     writer_.send_telemetry(port, telemetry);

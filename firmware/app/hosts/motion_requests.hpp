@@ -130,9 +130,9 @@ class MotionRequests {
     for (const std::int64_t position : {request.x, request.y})
       if (position > kFarthest || position < -kFarthest) return error(ErrorCode::out_of_range);
     const auto hold = board_.hold_tick();
-    Drive& drive = state_.get(hold).drive;
-    if (!drive.stopped_without_power()) return error(ErrorCode::moving);
-    drive.set_pose({request.x, request.y, Angle::from_raw(request.theta), 0});
+    auto& state = state_.get(hold);
+    if (!state.drive.stopped_without_power()) return error(ErrorCode::moving);
+    state.set_pose({request.x, request.y, Angle::from_raw(request.theta), 0});
     return Ack{};
   }
 

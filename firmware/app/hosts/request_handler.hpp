@@ -70,7 +70,7 @@ class RequestHandler {
     const std::uint32_t bad_frames = sessions_.bad_frames();
     const std::uint16_t stops_by_others = sessions_.read_stops(host);
     const auto hold = board_.hold_tick();
-    const TickState& state = state_.get(hold);
+    const auto& state = state_.get(hold);
     return protocol::Status{.device_time_us = board_.clock().now_us(),
                             .mode = state.drive.mode(),
                             .latched_faults = state.drive.faults().mask(),
@@ -171,9 +171,9 @@ class RequestHandler {
 
   /// Hands the parameters in force to the drive. Their meaning is computed while the tick runs.
   [[gnu::cold]] void configure_drive() {
-    const Drive::Configuration configuration(parameters_.active());
+    const typename TickState<hal::HasGyro<Board>>::Configuration configuration(parameters_.active());
     const auto hold = board_.hold_tick();
-    state_.get(hold).drive.configure(configuration);
+    state_.get(hold).configure(configuration);
   }
 
   [[gnu::cold]] Answer<Ack> restart(typename Restart<Board>::Kind kind) {

@@ -50,7 +50,7 @@ class ControlTick;
 
 /// What tick and main loop share, as the main loop of a robot on this board sees it.
 template <hal::Board Board>
-using SharedState = Shared<TickState, hal::TickHold<Board>, ControlTick<Board>>;
+using SharedState = Shared<TickState<hal::HasGyro<Board>>, hal::TickHold<Board>, ControlTick<Board>>;
 
 /// The control tick: reads the board, decides, and sets the bridges. Called at 1 kHz from the interrupt.
 template <hal::Board Board>
@@ -59,7 +59,7 @@ class ControlTick {
   [[gnu::cold]] explicit ControlTick(Board& board) : board_(board), state_(ParameterSet::defaults()) {}
 
   void run() {
-    TickState& state = state_.of_tick();
+    auto& state = state_.of_tick();
     state.faults.watch(state.drive, state.clock.last_us(), state.battery_mv);
     TickInput input;
     input.now_us = board_.clock().now_us();
@@ -68,6 +68,7 @@ class ControlTick {
     input.driver_fault = board_.motors().fault();
     input.on_time = state.clock.advance(input.now_us);
     apply(state.drive.advance(input), board_.motors());
+    if constexpr (hal::HasGyro<Board>) follow_gyro(state, input.now_us);
     state.battery_mv = input.battery_mv;
     if (state.drive.take_supervised()) state.check_in.here(CheckIn::Task::supervisor);
     state.check_in.here(CheckIn::Task::tick);
@@ -77,6 +78,15 @@ class ControlTick {
   const SharedState<Board>& state() const { return state_; }
 
  private:
+  /// All that a gyro can do to the motors is to open their bridges.
+  void follow_gyro(TickState<true>& state, std::uint64_t now_us) {
+    if (!state.gyro.advance(board_.gyro().read(), state.drive, now_us) || !state.drive.gives_power())
+        [[likely]]
+      return;
+    state.drive.raise(Fault::gyro_slip);
+    board_.motors().coast();
+  }
+
   Board& board_;
   SharedState<Board> state_;
 };

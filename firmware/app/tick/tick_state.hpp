@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "common/protocol/enums.hpp"
 #include "common/safety/pending_faults.hpp"
 #include "firmware/app/tick/drive.hpp"
+#include "firmware/app/tick/gyro_heading.hpp"
 #include "firmware/app/tick/tick_clock.hpp"
 
 namespace astro {
@@ -71,8 +73,30 @@ class CheckIn {
 };
 
 /// Everything that the control tick and the main loop share. The board apart, nothing else is used by both.
+template <bool kWithGyro>
 struct TickState {
+  using Gyro = std::conditional_t<kWithGyro, GyroHeading, NoGyro>;
+
+  /// What a parameter set means for the tick. It takes long divisions, so it is computed outside the tick.
+  struct Configuration {
+    [[gnu::cold]] explicit Configuration(const ParameterSet& set)
+        : drive(set), gyro(set, drive.wheels.geometry) {}
+    Drive::Configuration drive;
+    typename Gyro::Configuration gyro;
+  };
+
   explicit TickState(const ParameterSet& set) : drive(set) {}
+
+  /// Precondition: as Drive::configure has it.
+  void configure(const Configuration& configuration) {
+    drive.configure(configuration.drive);
+    gyro.configure(configuration.gyro, drive);
+  }
+  /// Precondition: as Drive::set_pose has it.
+  void set_pose(const Pose& pose) {
+    drive.set_pose(pose);
+    gyro.pose_was_set(drive);
+  }
 
   /// First, because the tick uses it most and an instruction reaches only so far from the object's beginning.
   Drive drive;
@@ -80,6 +104,7 @@ struct TickState {
   CheckIn check_in;
   std::int32_t battery_mv = 0;  // as the last tick read it
   FaultWatch faults;
+  [[no_unique_address]] Gyro gyro;
 };
 
 }  // namespace astro

@@ -68,7 +68,7 @@ class Client {
   void pump(microseconds duration);
   bool pump_until(const std::function<bool()>& done, microseconds timeout);
 
-  /// M: Telemetry, SegmentStarted, SegmentDone, FaultRaised, Booted. Ends when the Subscription is destroyed.
+  /// M: Telemetry, SegmentStarted, SegmentDone, FaultRaised, Booted, SlipFound. Ends when the Subscription is destroyed.
   template <protocol::Message M>
   [[nodiscard]] Subscription on(typename Listeners<M>::Callback callback) {
     return std::get<Listeners<M>>(listeners_).add(std::move(callback));
@@ -133,7 +133,7 @@ class Client {
   LinkCounts counts_;
   std::tuple<Listeners<protocol::Telemetry>, Listeners<protocol::SegmentDone>,
              Listeners<protocol::FaultRaised>, Listeners<protocol::Booted>,
-             Listeners<protocol::SegmentStarted>>
+             Listeners<protocol::SegmentStarted>, Listeners<protocol::SlipFound>>
       listeners_;
 
   std::uint16_t next_id_ = 0;

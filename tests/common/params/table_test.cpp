@@ -201,6 +201,10 @@ TEST(ParamTable, StandsAsItWasPublished) {
     {"stall_time", "ms", ParamKind::integer, 0, 300, 50, 5000},
     {"e", "1", ParamKind::binary_scaled, -30, 0, -0.2, 0.2},
     {"kappa0", "1/b", ParamKind::decimal_scaled, -6, 0.12, 0.01, 10},
+    {"gyro_axis", "1", ParamKind::integer, 0, 0, -3, 3},
+    {"gyro_scale", "1", ParamKind::binary_scaled, -30, 1, 0.5, 1.5},
+    {"gyro_lag", "s", ParamKind::decimal_scaled, -3, 0.005, 0, 0.25},
+    {"gyro_slip_stops", "1", ParamKind::integer, 0, 0, 0, 1},
   };
   // clang-format on
   ASSERT_EQ(kParamTable.size(), std::size(kPublished));

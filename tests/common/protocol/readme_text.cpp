@@ -25,6 +25,7 @@ constexpr std::string_view enum_name() {
   if constexpr (std::is_same_v<T, ResetCause>) return "ResetCause";
   if constexpr (std::is_same_v<T, ErrorCode>) return "ErrorCode";
   if constexpr (std::is_same_v<T, Fault>) return "Fault";
+  if constexpr (std::is_same_v<T, GyroState>) return "GyroState";
   return "";
 }
 
@@ -106,7 +107,7 @@ std::string enum_row() {
 std::string enum_tables() {
   std::string text = "## Enumerations\n\n| enumeration | values |\n|---|---|\n" + enum_row<Mode>() +
                      enum_row<SegmentKind>() + enum_row<SegmentOutcome>() + enum_row<ParameterKind>() +
-                     enum_row<ResetCause>() + enum_row<Fault>() +
+                     enum_row<ResetCause>() + enum_row<Fault>() + enum_row<GyroState>() +
                      "\n| ErrorCode | | meaning |\n|---|---|---|\n";
   for (std::size_t i = 0; i < kErrorCodeNames.size(); ++i) {
     text += row({std::to_string(i), std::string(kErrorCodeNames[i]), std::string(kErrorCodeMeanings[i])});

@@ -83,7 +83,8 @@ TEST(Schema, SendsEveryMember) {
   EXPECT_EQ(kBodySize<FaultLogEntry>, 3U + 4 + 4 + 8 + 1 + 1 + 4 + 4 + 4 + 2);
   EXPECT_EQ(kBodySize<SegmentDone>, 3U + 2 + 1 + 8);
   EXPECT_EQ(kBodySize<FaultRaised>, 3U + 1 + 8);
-  EXPECT_EQ(kBodySize<Telemetry>, 3U + 12 + 28 + 8 + 8 + 8 + 8 + 4 + 4 + 7 + 14);
+  EXPECT_EQ(kBodySize<Telemetry>, 3U + 12 + 28 + 8 + 8 + 8 + 8 + 4 + 4 + 7 + 14 + 49);
+  EXPECT_EQ(kBodySize<SlipFound>, 3U + 8 + 2);
 }
 
 TEST(Schema, NamesTheTelemetryGroupsByTheBitsOfTheirConstants) {
@@ -92,7 +93,8 @@ TEST(Schema, NamesTheTelemetryGroupsByTheBitsOfTheirConstants) {
   detail::each<true, Telemetry>([&](const auto& group) { bits.push_back(1U << group.bit); });
   EXPECT_EQ(bits, (std::vector<std::uint32_t>{Telemetry::kPose, Telemetry::kCounts, Telemetry::kTwist,
                                               Telemetry::kWheelSpeed, Telemetry::kSetpoint, Telemetry::kDuty,
-                                              Telemetry::kBattery, Telemetry::kState, Telemetry::kPath}));
+                                              Telemetry::kBattery, Telemetry::kState, Telemetry::kPath,
+                                              Telemetry::kFused}));
 }
 
 // Every version must read these bytes: never change them.
@@ -137,7 +139,7 @@ TEST(Schema, NamesEveryEnumerationValueAndNoOther) {
   EXPECT_EQ(name(ErrorCode::busy), "busy");
   EXPECT_EQ(name(Fault::tick_overrun), "tick_overrun");
   EXPECT_EQ(name(Mode{9}), "?");
-  EXPECT_EQ(name(Fault{16}), "?");
+  EXPECT_EQ(name(Fault{17}), "?");
   EXPECT_EQ(meaning(ErrorCode::moving), "the robot must be at rest for this");
   EXPECT_EQ(meaning(ErrorCode{14}), "an error of another protocol version");
 }

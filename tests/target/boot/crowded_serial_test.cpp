@@ -33,7 +33,7 @@ TEST(CrowdedSerialPort, AnswersEveryRequestAndLosesNoEvent) {
   const auto on_done = client.on<protocol::SegmentDone>([&](const auto& one) { done.push_back(one.tag); });
   client.request(protocol::SetTelemetry{1, Telemetry::kAll});
   client.pump(100ms);
-  ASSERT_GT(samples, 70) << "the line is full";
+  ASSERT_GT(samples, 49) << "the line is full";  // 162 bytes each, of 100 a millisecond
 
   client.request(protocol::Arm{});
   constexpr int kSegments = 12;
