@@ -48,7 +48,7 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
 struct SampleSink {
   std::function<void(const recording::OdometrySample&)> odometry;
   std::function<void(const recording::TruthSample&)> truth;
-  std::function<void(const lidar::Scan&)> scan;
+  std::function<void(const lidar::Scan&)> scan = [](const lidar::Scan&) {};
 };
 
 struct Recorded {

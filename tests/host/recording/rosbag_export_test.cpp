@@ -43,7 +43,7 @@ struct Exported {
 };
 
 TEST(RosbagExport, HasTheScansOfARunThatHasAny) {
-  Run run = driven();
+  recording::Run run = driven();
   run.scans = {{200'000'000, 0, -0.02F, 0.0005F, 0.125, 12, {1, 2, 3}},
                {400'000'000, 0, -0.02F, 0.0005F, 0.125, 12, {4}}};
   const test::TemporaryFolder folder;

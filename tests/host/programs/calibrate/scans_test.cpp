@@ -19,7 +19,7 @@ using support::astrolabe;
 using support::Outcome;
 using testing::HasSubstr;
 
-constexpr int kFailed = 1, kWrongUsage = 2, kNotBetter = 3;
+constexpr int kFailed = 1, kScansWrongUsage = 2, kScansNotBetter = 3;
 constexpr calibration::WheelFactors kWrong{1.013, 1.007, 0.306};
 
 class Scans : public testing::Test {
@@ -66,7 +66,7 @@ TEST_F(Scans, InALogCalibrateTheRobotAndWriteAFile) {
 
 TEST_F(Scans, OfARobotThatIsRightEndWithTheCodeForNotBetter) {
   const Outcome outcome = calibrated(log_of(driven(lidar::kLoaded)), {"--out", at("calib.toml")});
-  EXPECT_EQ(outcome.code, kNotBetter) << outcome.err;
+  EXPECT_EQ(outcome.code, kScansNotBetter) << outcome.err;
   EXPECT_EQ(support::parse_json(outcome.out)["verdict"]["verdict"], "undecided");
 }
 
@@ -91,7 +91,7 @@ TEST_F(Scans, TakeNoOptionsThatWouldHaveNoEffect) {
   std::ofstream(at("x.log")) << "ODOM 0 0 0 0 0 0 1 h 1\n";
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--up", "z"}, {"--body", "A"}, {"--sigma-xy", "0.001"}})
-    EXPECT_EQ(calibrated(at("x.log"), more).code, kWrongUsage) << more.front();
+    EXPECT_EQ(calibrated(at("x.log"), more).code, kScansWrongUsage) << more.front();
 }
 
 TEST_F(Scans, InAFileThatHasNoneAreMissed) {
