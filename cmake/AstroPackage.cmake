@@ -9,24 +9,31 @@ install(TARGETS astrolabe)
 install(FILES ${files}/60-astrolabe.rules DESTINATION lib/udev/rules.d)
 install(FILES ${files}/astrolabe-ros2@.service ${files}/astrolabe-serve@.service DESTINATION lib/systemd/system)
 install(FILES ${files}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES ${CMAKE_SOURCE_DIR}/build/teensy40/bin/astrolabe-teensy40.hex DESTINATION share/astrolabe/firmware
-  OPTIONAL)
-install(CODE "set(program $<TARGET_FILE:astrolabe>)\nset(changelog ${files}/changelog)")
+install(FILES ${CMAKE_SOURCE_DIR}/build/teensy40/bin/astrolabe-teensy40.hex
+  ${CMAKE_SOURCE_DIR}/build/rp2040/bin/astrolabe-rp2040.uf2 DESTINATION share/astrolabe/firmware OPTIONAL)
+install(CODE "set(program $<TARGET_FILE:astrolabe>)
+  set(changelog ${files}/changelog)
+  set(made ${CMAKE_BINARY_DIR}/package_texts)")
+# Made in the build tree, so that nothing but what is ours is packed or taken away below the prefix.
 install(CODE [[
-  set(share "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share")
-  function(made_by_program file)
-    file(MAKE_DIRECTORY ${share}/${file}/..)
-    execute_process(COMMAND ${program} completion ${ARGN} OUTPUT_FILE ${share}/${file} COMMAND_ERROR_IS_FATAL ANY)
-  endfunction()
-  made_by_program(bash-completion/completions/astrolabe bash)
-  made_by_program(zsh/vendor-completions/_astrolabe zsh)
-  made_by_program(fish/vendor_completions.d/astrolabe.fish fish)
-  file(REMOVE_RECURSE ${share}/man)
-  execute_process(COMMAND ${program} manual ${share}/man/man1 COMMAND_ERROR_IS_FATAL ANY)
-  file(COPY ${changelog} DESTINATION ${share}/doc/astrolabe)
-  file(GLOB texts ${share}/man/man1/*.1)
+  set(share "${CMAKE_INSTALL_PREFIX}/share")  # file(INSTALL) adds DESTDIR
+  file(REMOVE_RECURSE ${made})
+  file(MAKE_DIRECTORY ${made})
+  execute_process(COMMAND ${program} completion bash OUTPUT_FILE ${made}/astrolabe COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${program} completion zsh OUTPUT_FILE ${made}/_astrolabe COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${program} completion fish OUTPUT_FILE ${made}/astrolabe.fish COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${program} manual ${made}/man1 COMMAND_ERROR_IS_FATAL ANY)
+  file(COPY ${changelog} DESTINATION ${made})
+  file(GLOB texts ${made}/man1/*.1)
   # Without names and times, so that two builds give the same bytes.
-  execute_process(COMMAND gzip -9nf ${texts} ${share}/doc/astrolabe/changelog COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND gzip -9n ${texts} ${made}/changelog COMMAND_ERROR_IS_FATAL ANY)
+  file(GLOB pages ${made}/man1/*.1.gz)
+  set(for_all PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  file(INSTALL ${made}/astrolabe DESTINATION ${share}/bash-completion/completions ${for_all})
+  file(INSTALL ${made}/_astrolabe DESTINATION ${share}/zsh/vendor-completions ${for_all})
+  file(INSTALL ${made}/astrolabe.fish DESTINATION ${share}/fish/vendor_completions.d ${for_all})
+  file(INSTALL ${pages} DESTINATION ${share}/man/man1 ${for_all})
+  file(INSTALL ${made}/changelog.gz DESTINATION ${share}/doc/astrolabe ${for_all})
 ]])
 
 set(CPACK_GENERATOR DEB)
@@ -35,11 +42,11 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_CONTACT "The Astrolabe authors <astrolabe@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "calibrates the odometry of differential-drive robots")
-set(CPACK_PACKAGE_DESCRIPTION "Firmware and tools for robots with two driven wheels. Ground truth from a tracker,
-a phone film, a wall or a tape measure gives the factors of both wheels and the
-wheelbase with their errors; they are loaded into the robot, and drives before and
-after show what they are worth. 'astrolabe demo' does all of it with a simulated
-robot.")
+set(CPACK_PACKAGE_DESCRIPTION "Firmware and tools for robots with two driven wheels. Ground truth from a
+tracker, a phone film, a wall, a laser scanner or a tape measure gives the
+factors of both wheels and the wheelbase with their errors; they are loaded
+into the robot, and drives before and after show what they are worth.
+'astrolabe demo' does all of it with a simulated robot.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, teensy-loader-cli")  # films; flashing

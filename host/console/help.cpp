@@ -96,7 +96,8 @@ class HelpFormatter final : public CLI::Formatter {
     while (line.size() > kWidth) {
       constexpr std::size_t kBreak = 2;  // the characters that end the line
       std::size_t at = line.rfind(" --", kWidth - kBreak);
-      if (at == std::string::npos) at = line.rfind(' ', kWidth - kBreak);
+      if (at == std::string::npos || at < line.find_first_not_of(' ')) at = line.rfind(' ', kWidth - kBreak);
+      if (at == std::string::npos || at < line.find_first_not_of(' ')) break;  // one long word
       out += line.substr(0, at) + " \\\n";
       line = blanks + "    " + line.substr(at + 1);
     }

@@ -19,4 +19,8 @@ using Emit = std::function<void(const nlohmann::json&)>;
 nlohmann::json answer(const std::string& call, const nlohmann::json& question,
                       const std::filesystem::path& folder, const Emit& emit);
 
+/// An answer or an event as text. Files may hold bytes that are no UTF-8, and some stand in the sentences about them: each such
+/// byte becomes U+FFFD.
+std::string as_text(const nlohmann::json& answer);
+
 }  // namespace astro::page

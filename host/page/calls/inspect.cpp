@@ -175,14 +175,15 @@ json units() {
 }
 
 json column_roles() {
-  json wheels = {"time", "time_s", "time_ms", "time_us", "time_ns"};
+  const json times = {"time", "time_s", "time_ms", "time_us", "time_ns", "time_cs"};
+  json wheels = times;
   for (const char* side : {"left_", "right_"})
     for (const importing::TravelMeasure& measure : importing::travel_measures()) {
       std::string name = side + std::string(measure.name);
       std::ranges::replace(name, '/', '_');
       wheels.push_back(name);
     }
-  json truth = {"time", "time_s", "time_ms", "time_us", "time_ns"};
+  json truth = times;
   for (const std::string unit : importing::kTruthUnits)
     for (const char* axis : {"x_", "y_", "z_"}) truth.push_back(std::string(axis) + unit);
   for (const char* unit : {"rad", "deg"})

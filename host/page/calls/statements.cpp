@@ -29,12 +29,16 @@ void take_files(const json& question, const std::filesystem::path& folder, impor
   const auto found = question.find("drives");
   if (found == question.end()) return;
   if (!found->is_array()) throw Error("drives is no list");
+  int number = 0;
   for (const json& drive : *found) {
+    ++number;
     if (!drive.is_object()) throw Error("drives has an entry that is no object");
-    if (const std::string wheels = text_in(drive, "wheels"); !wheels.empty())
-      drives.wheels.push_back(file_in(folder, wheels));
-    if (const std::string truth = text_in(drive, "truth"); !truth.empty())
-      drives.truth.push_back(file_in(folder, truth));
+    const std::string wheels = text_in(drive, "wheels"), truth = text_in(drive, "truth");
+    // The wheels of one drive and the truth of the next would be taken for a drive.
+    if (found->size() > 1 && wheels.empty() != truth.empty())
+      throw Error(fmt::format("drive {} has no {}", number, wheels.empty() ? "wheels" : "ground truth"));
+    if (!wheels.empty()) drives.wheels.push_back(file_in(folder, wheels));
+    if (!truth.empty()) drives.truth.push_back(file_in(folder, truth));
   }
 }
 

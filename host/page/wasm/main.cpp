@@ -7,15 +7,15 @@
 #include "host/page/calls/calls.hpp"
 
 /// The module's whole surface: answer(call, question, emit), all three texts of JSON but the last, a function that gets one.
-/// Files are those of Emscripten's file system in memory below /work.
+/// Files are those of Emscripten's file system in memory below kFolder.
 namespace {
 
-constexpr const char* kFolder = "/work";
+constexpr const char* kFolder = "/files-of-the-page";
 
 std::string answer(const std::string& call, const std::string& question, emscripten::val emit) {
   const auto parsed = nlohmann::json::parse(question, nullptr, false);
-  const auto told = [&emit](const nlohmann::json& event) { emit(event.dump()); };
-  return astro::page::answer(call, parsed, kFolder, told).dump();
+  const auto told = [&emit](const nlohmann::json& event) { emit(astro::page::as_text(event)); };
+  return astro::page::as_text(astro::page::answer(call, parsed, kFolder, told));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ _astrolabe() {
     fi
   done < <("${COMP_WORDS[0]}" complete -- "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
 }
-complete -F _astrolabe astrolabe
+complete -o default -F _astrolabe astrolabe
 )";
 
 constexpr const char* kZsh = R"(#compdef astrolabe
@@ -49,15 +49,10 @@ if [[ ${funcstack[1]} == _astrolabe ]]; then _astrolabe "$@"; else compdef _astr
 constexpr const char* kFish = R"(# For ~/.config/fish/completions/astrolabe.fish
 function __astrolabe_complete
   set -l typed (commandline -opc) (commandline -ct)
-  for line in ($typed[1] complete -- $typed[2..-1] 2>/dev/null)
-    if test "$line" = :
-      __fish_complete_path (commandline -ct)
-    else
-      echo $line
-    end
-  end
+  $typed[1] complete -- $typed[2..-1] 2>/dev/null
 end
-complete -c astrolabe -f -a '(__astrolabe_complete)'
+complete -c astrolabe -f -a '(__astrolabe_complete | string match -v :)'
+complete -c astrolabe -n '__astrolabe_complete | string match -q :' -F
 )";
 
 struct AboutOptions {

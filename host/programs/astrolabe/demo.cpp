@@ -54,11 +54,11 @@ class SimulatedRobot {
 };
 
 void demonstrate(const DemoOptions& options, const std::function<int(const std::vector<std::string>&)>& run) {
-  if (fs::exists(options.folder))
-    throw Error("'" + options.folder.string() +
-                "' exists already: remove it, or name another folder with --out");
-  fs::create_directories(options.folder);
-  const fs::path port = options.folder / "robot.pty", experiment = options.folder / "experiment";
+  const fs::path folder = fs::absolute(options.folder);  // not to be taken for an option
+  if (fs::exists(folder))
+    throw Error("'" + folder.string() + "' exists already: remove it, or name another folder with --out");
+  fs::create_directories(folder);
+  const fs::path port = folder / "robot.pty", experiment = folder / "experiment";
   const SimulatedRobot robot(port, options.seed);
   if (run({"umbmark", "--port", port.string(), "--truth", "sim", "--runs", "5", "--side", "3", "--out",
            experiment.string(), "--yes"}) != 0)

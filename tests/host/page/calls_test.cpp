@@ -106,6 +106,11 @@ TEST(Calls, AFolderThatCannotBeWrittenIsToldLikeAnyOtherRefusal) {
   EXPECT_THAT(asked.answer.at("error").at("sentence").get<std::string>(), HasSubstr("try-1"));
 }
 
+TEST(Calls, AnswersAreTextWhateverBytesAFileHolds) {
+  const json parsed = json::parse(as_text({{"sentence", "'Weg[\xb0]' is no number"}}));
+  EXPECT_EQ(parsed["sentence"], "'Weg[\xEF\xBF\xBD]' is no number");
+}
+
 TEST(Calls, AnUnknownOneIsNamed) {
   EXPECT_EQ(ask("fly", json::object(), {}).answer.at("error").at("sentence"), "there is no call 'fly'");
 }

@@ -207,6 +207,12 @@ TEST_F(DataCalls, WhatIsMissingOrInTheWayIsNamedWithWhatHelps) {
             "there are no drives: give files of wheels and of ground truth");
   EXPECT_EQ(sentence("calibrate", {{"drives", {{{"wheels", "wheels1.csv"}, {"truth", ""}}}}}),
             "there are 1 files of wheels and 0 of ground truth: each drive needs both");
+  EXPECT_EQ(
+      sentence("calibrate",
+               {{"drives",
+                 {{{"wheels", "wheels1.csv"}, {"truth", ""}}, {{"wheels", ""}, {"truth", "take2.csv"}}}}}),
+      "drive 1 has no ground truth")
+      << "they are not one drive";
 }
 
 TEST_F(DataCalls, NoQuestionLeadsOutOfTheFolder) {

@@ -89,5 +89,25 @@ TEST(Manual, LosesNoLineOfTheHelp) {
   EXPECT_GT(pages, 28 + 15) << "the commands and those below them";
 }
 
+TEST(Installation, PutsWhatIsOursWhereDebianLooksForItAndTouchesNothingElse) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path share = folder.path() / "usr/local/share";
+  std::filesystem::create_directories(share / "man/man1");
+  std::ofstream(share / "man/man1/other.1") << ".TH OTHER 1\n";
+  const std::filesystem::path build = std::filesystem::path(ASTROLABE_PROGRAM).parent_path().parent_path();
+  support::Program install({"/bin/sh", "-c",
+                            "DESTDIR='" + folder.path().string() + "' cmake --install '" + build.string() +
+                                "' --prefix /usr/local"});
+  ASSERT_EQ(install.wait(), 0) << install.err();
+  EXPECT_EQ(text_of(share / "man/man1/other.1"), ".TH OTHER 1\n");
+  for (const char* file :
+       {"bash-completion/completions/astrolabe", "zsh/vendor-completions/_astrolabe",
+        "fish/vendor_completions.d/astrolabe.fish", "man/man1/astrolabe.1.gz",
+        "man/man1/astrolabe-calibrate-files.1.gz", "doc/astrolabe/changelog.gz", "doc/astrolabe/copyright"})
+    EXPECT_TRUE(std::filesystem::is_regular_file(share / file)) << file;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "usr/local/bin/astrolabe"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "usr/local/lib/udev/rules.d/60-astrolabe.rules"));
+}
+
 }  // namespace
 }  // namespace astro

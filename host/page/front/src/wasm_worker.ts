@@ -6,7 +6,7 @@ interface Module {
   FS: { mkdir(path: string): void; readFile(path: string): Uint8Array<ArrayBuffer>; writeFile(path: string, bytes: Uint8Array): void };
 }
 
-const kFolder = "/work";
+const kFolder = "/files-of-the-page";
 
 async function load(): Promise<Module> {
   const address = new URL(/* @vite-ignore */ "../astrolabe.mjs", import.meta.url).href;

@@ -21,7 +21,7 @@ async function answers_of_module() {
   globalThis.require = createRequire(import.meta.url);
   const { default: create } = await import(path.join(page, "astrolabe.mjs"));
   const module = await create({ wasmBinary: readFileSync(path.join(page, "astrolabe.wasm")) });
-  module.FS.mkdir("/work");
+  module.FS.mkdir("/files-of-the-page");
   return questions.map(({ call, question }) => JSON.parse(module.answer(call, JSON.stringify(question), () => {})));
 }
 
