@@ -26,16 +26,16 @@ struct Listed {
   std::string heading, name;
 };
 
-// As --help lists them below the options: a short heading, and on each line two blanks, the name, its description.
+// As --help lists them below the options: a heading after an empty line, and on each line two blanks, the name, its description.
 std::vector<Listed> commands_in(const std::string& help) {
   std::vector<Listed> commands;
   std::istringstream lines(help);
-  std::string line, heading;
-  while (std::getline(lines, line)) {
-    if (!line.starts_with(' ')) heading = line.ends_with(':') ? line.substr(0, line.size() - 1) : "";
+  std::string line, before, heading;
+  for (; std::getline(lines, line); before = line) {
+    if (!line.starts_with(' '))
+      heading = before.empty() && line.ends_with(':') ? line.substr(0, line.size() - 1) : "";
     const bool listed = line.starts_with("  ") && line.size() > 2 && std::islower(line[2]) != 0;
-    if (listed && !heading.empty() && heading.size() < 12 && heading != "Positionals" &&
-        !heading.starts_with("Example"))
+    if (listed && !heading.empty() && heading != "Positionals" && !heading.starts_with("Example"))
       commands.push_back({heading, line.substr(2, line.find_first_of(" ,", 2) - 2)});
   }
   return commands;
