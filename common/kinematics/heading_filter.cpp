@@ -23,6 +23,8 @@ constexpr int kSettle_steps = 10, kLearn_steps = 50, kDisagree_steps = 500;
 // The samples of a stand may have twice the deviation of the sensor's noise.
 constexpr std::int64_t kMostScatter_16 = 4 * HeadingFilter::kGyro << 16;
 constexpr std::int64_t kGate = 36;  // 6 sigma, squared
+// 10 degrees a second in a step. No sensor is so far off, so a steady rate beyond is somebody who turns the robot.
+constexpr std::int64_t kMostBias = (std::int64_t{1} << 48) / 3600;
 
 /// The reciprocal of a positive number for several quotients: at most 2^-15 of them too small. One 32-bit division.
 class Reciprocal {
@@ -67,7 +69,9 @@ void HeadingFilter::advance(const HeadingStep& step, bool believe_wheels) {
   // Twice the reference robot's slip: too much of it costs less than too little.
   const std::int64_t slip_now = std::clamp(2 * slip(step.path_20), kLeastSlip, kMostSlip);
   const std::int64_t variance = (p_bb_ >> 16) + kGyro + slip_now;
-  if (believe_wheels && accepts(innovation_, variance, at_rest)) update(variance);
+  // Asked in any case: a bias that jumps looks like a slip without end, and only the stand shows that it is none.
+  const bool agrees = accepts(innovation_, variance, at_rest);
+  if (believe_wheels && agrees) update(variance);
   p_bb_ = std::min(p_bb_ + kWalk_16, kMostBiasVariance_16);
 }
 
@@ -95,7 +99,9 @@ void HeadingFilter::learn(std::int64_t gyro_48) {
   learned_ = 0;
   const std::int64_t mean_40 = sum_ / kLearn_steps;
   if (squares_ / kLearn_steps - mean_40 * mean_40 > kMostScatter_16) return;
-  bias_ = first_ + mean_40 * 256;
+  const std::int64_t mean = first_ + mean_40 * 256;
+  if (magnitude(mean) > kMostBias) return;
+  bias_ = mean;
   p_hb_ = 0;
   p_bb_ = (kGyro << 16) / kLearn_steps;
   knows_bias_ = true;
@@ -111,12 +117,19 @@ bool HeadingFilter::accepts(std::int64_t innovation_48, std::int64_t variance, b
   }
   const bool quiet = at_rest_ > kSettle_steps && scatter_ <= 2 * kMostScatter_16;
   const bool agrees = size_32 * size_32 <= kGate * variance;
-  if (quiet && agrees) {
+  if (!quiet) {
     disagrees_ = 0;
+    return false;
+  }
+  if (agrees) {
+    // Not from zero again: noise brings an innovation that is a little beyond the gate back into it now and then.
+    disagrees_ = std::max(disagrees_ - 1, 0);
     return true;
   }
-  disagrees_ = quiet ? disagrees_ + 1 : 0;
-  if (disagrees_ >= kDisagree_steps) knows_bias_ = false;
+  if (++disagrees_ >= kDisagree_steps) {
+    knows_bias_ = false;
+    innovation_ = 0;
+  }
   return false;
 }
 

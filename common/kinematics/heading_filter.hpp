@@ -29,8 +29,9 @@ struct HeadingStep {
 ///   - in the first 0.1 s of a stand, while the body still rocks, and in a stand whose samples scatter more than the sensor's noise
 ///     does, because somebody handles the robot.
 ///   - while `believe_wheels` is false.
-/// The bias begins as the mean of half a second at rest. Before that, correction_48() stays 0. If a stand disagrees with the bias for
-/// five seconds without scatter, the bias begins anew, because it has moved (a sensor that warms up).
+/// The bias begins as the mean of half a second at rest. Before that, correction_48() stays 0. If a stand without scatter disagrees
+/// with the bias for five seconds more than it agrees, the bias begins anew, because it has moved (a sensor that warms up). A mean
+/// beyond 10 degrees a second is no bias.
 ///
 /// Units   increments of 10 ms; heading in 2^-48 turn, variances in (2^-32 turn)^2
 /// Errors  within 0.01 degrees of the same filter in double (tests/common/kinematics). No number is wider than 63 bits.
@@ -87,7 +88,7 @@ class HeadingFilter {
   std::int64_t p_bb_ = 0;  // 2^-16
   bool knows_bias_ = false;
   int at_rest_ = 0;    // steps without a count
-  int disagrees_ = 0;  // steps at rest, in a row, whose innovation was refused although the gyro was quiet
+  int disagrees_ = 0;  // steps of a quiet stand whose innovation was refused, minus those whose was not
   int learned_ = 0;    // steps in the sums
   std::int64_t first_ = 0, sum_ = 0,
                squares_ = 0;  // of the gyro's steps, minus the first of them, in 2^-40 turn

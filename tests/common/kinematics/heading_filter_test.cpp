@@ -196,6 +196,20 @@ TEST(HeadingFilter, ABiasThatHasMovedIsFoundAnewWithinSixSecondsAtRest) {
   EXPECT_NEAR(correction_rad(filter), before, 0.3 * kDegree);
 }
 
+TEST(HeadingFilter, ATurnTableIsNoBias) {
+  HeadingFilter filter = a_filter();
+  GyroDrive turned({.bias_radps = 11 * kDegree}, 1);
+  for (int i = 0; i < 1000; ++i) filter.advance(turned.advance({}), true);
+  EXPECT_FALSE(filter.knows_bias());
+  GyroDrive stands({.bias_radps = 9 * kDegree}, 1);
+  for (int i = 0; i < 200; ++i) filter.advance(stands.advance({}), true);
+  EXPECT_TRUE(filter.knows_bias());
+  int steps = 0;
+  while (filter.knows_bias() && ++steps < 1000) filter.advance(turned.advance({}), true);
+  EXPECT_FALSE(filter.knows_bias());
+  EXPECT_EQ(filter.innovation_48(), 0);
+}
+
 TEST(HeadingFilter, AHeadingWithoutGyroGoesOnAsTheWheelsDo) {
   GyroDrive drive({}, 1);
   HeadingFilter filter = a_filter();
