@@ -14,8 +14,8 @@ constexpr int kFrozen_samples = 20;  // noise moves some axis in each of them, i
 constexpr double kTwoPi = 6.283185307179586;
 // A tick at 1e-9 rad/s, 2^-20 of 2^-48 turn.
 constexpr auto kTickTurn_68 = static_cast<std::int64_t>(0x1p68 * 1e-12 / kTwoPi);
-// 2^-48 turn in ten ticks to 1e-6 rad/s, 2^-40.
-constexpr auto kStepRate_40 = static_cast<std::int64_t>(kTwoPi * 1e8 / 0x1p48 * 0x1p40);
+// 2^-40 turn in ten ticks to 1e-6 rad/s, 2^-32.
+constexpr auto kStepRate_32 = static_cast<std::int64_t>(kTwoPi * 1e8 / 0x1p40 * 0x1p32);
 // 2^-32 turn to 1e-4 rad, 2^-32.
 constexpr auto kUnseen_32 = static_cast<std::int64_t>(kTwoPi * 1e4);
 
@@ -73,8 +73,10 @@ void GyroHeading::begin_at(const Drive& drive) {
   history_.fill(wheels_of(drive));
   lagging_ = history_[0];
   watch_.reset();
+  step_ = {};
   ticks_ = 0;
   sum_ = 0;
+  fused_us_ = 0;
   stepped_ = false;
 }
 
@@ -87,14 +89,17 @@ bool GyroHeading::take_slip(UnseenTurn& slip) {
 
 bool GyroHeading::advance(const hal::GyroReading& reading, const Drive& drive, std::uint64_t now_us) {
   if (!in_use()) return false;
-  if (const State now = take(reading); now != State::running) worst_ = now;
+  // Saturation is the least of the faults, so it is the worst of a step only if there is no other.
+  const State now = take(reading);
+  if (now != State::running && (now != State::saturated || worst_ == State::running)) worst_ = now;
   switch (++ticks_) {
     case kTicks:
       step_filter(drive);
       ticks_ = 0;
       return false;
     case 1:
-      return step_watch(now_us) && slip_stops_;
+      step_watch(now_us);
+      return slip_stops_ && watch_.slipping();
     case 2:
       step_pose(drive, now_us);
       return false;
@@ -179,28 +184,29 @@ void GyroHeading::step_filter(const Drive& drive) {
            now.path_20 - lagging_.path_20};
   lagging_ = now;
   sum_ = 0;
-  stepped_ = worst_ == State::running;
-  state_ = !stepped_ ? worst_ : filter_.knows_bias() ? State::running : State::learning;
+  const bool good = worst_ == State::running;
+  // A saturated gyro says that the robot turns at least so far. If that is further than the wheels say, it is the slip that must
+  // not be missed: a hard kick.
+  const bool beyond_wheels =
+      worst_ == State::saturated && magnitude(step_.gyro_48) > magnitude(std::int64_t{step_.wheels_32} << 16);
+  stepped_ = good || beyond_wheels;
+  state_ = !good ? worst_ : filter_.knows_bias() ? State::running : State::learning;
   worst_ = State::running;
   if (stepped_) {
-    filter_.advance(step_, !watch_.slipping());
+    filter_.advance(step_, good && !watch_.slipping());
   } else {
     filter_.skip();
   }
 }
 
-bool GyroHeading::step_watch(std::uint64_t now_us) {
-  if (!stepped_ || !filter_.knows_bias()) {
-    watch_.reset();
-    return false;
-  }
-  if (!watch_.advance(step_, filter_)) return false;
+void GyroHeading::step_watch(std::uint64_t now_us) {
+  if (!stepped_ || !filter_.knows_bias()) return watch_.reset();
+  if (!watch_.advance(step_, filter_)) return;
   ++slips_;
   slip_waits_ = true;
   constexpr std::int64_t kMost_32 = std::int64_t{1} << 31;
   const std::int64_t turn = (clamp_abs(watch_.unseen_32(), kMost_32) * kUnseen_32) >> 32;
   slip_ = {now_us, static_cast<std::int16_t>(clamp_abs(turn, std::int64_t{INT16_MAX}))};
-  return true;
 }
 
 void GyroHeading::step_pose(const Drive& drive, std::uint64_t now_us) {
@@ -223,13 +229,17 @@ void GyroHeading::step_pose(const Drive& drive, std::uint64_t now_us) {
 protocol::FusedGroup GyroHeading::report(const Drive& drive, std::uint64_t time_us) const {
   const Pose& pose = in_use() ? fused_.pose() : drive.pose();
   const std::int64_t bias_48 = filter_.bias_48();
-  return {in_use() ? fused_us_ : time_us,
+  // The shift comes first: without it the product would overflow beyond 8.39 rad/s.
+  const auto rate_uradps = [](std::int64_t turn_48) {
+    return saturate32(((turn_48 >> 8) * kStepRate_32) >> 32);
+  };
+  return {in_use() && fused_us_ != 0 ? fused_us_ : time_us,
           pose.x,
           pose.y,
           pose.theta.raw(),
           pose.turns,
-          saturate32(((step_.gyro_48 - bias_48) * kStepRate_40) >> 40),
-          saturate32((bias_48 * kStepRate_40) >> 40),
+          stepped_ ? rate_uradps(step_.gyro_48 - bias_48) : 0,
+          rate_uradps(bias_48),
           temperature_cC_,
           state_,
           slips_};

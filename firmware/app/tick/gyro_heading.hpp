@@ -23,7 +23,8 @@ struct UnseenTurn {
 /// gyro notices. Nothing here moves the robot or changes its odometry.
 ///
 /// Readings are summed for ten ticks, each held until the next comes. The wheels' part of a step is taken `gyro_lag` earlier, between
-/// the steps by linear interpolation. While there is no good reading the pose follows the wheels, and state() says why.
+/// the steps by linear interpolation. While there is no good reading the pose follows the wheels, and state() says why. Only a gyro
+/// that is saturated beyond what the wheels say is followed.
 ///
 /// Cost    a sum in most ticks. Of ten ticks one advances the filter, one the watch for slips, and one the pose.
 class GyroHeading {
@@ -43,7 +44,8 @@ class GyroHeading {
   /// Precondition: the robot stands, or only gains have changed.
   void configure(const Configuration& configuration, const Drive& drive);
 
-  /// Called once a tick, after the drive. True if a slip is found with this tick that the parameters let stop the robot.
+  /// Called once a tick, after the drive. True in one tick of ten while a slip goes on that the parameters let stop the robot, so
+  /// that one which began without power is still seen by a robot that is given power.
   bool advance(const hal::GyroReading& reading, const Drive& drive, std::uint64_t now_us);
 
   /// The robot's pose was set: this one is the same.
@@ -71,7 +73,7 @@ class GyroHeading {
   Wheels wheels_of(const Drive& drive);
   Wheels wheels_at_lag() const;
   void step_filter(const Drive& drive);
-  bool step_watch(std::uint64_t now_us);
+  void step_watch(std::uint64_t now_us);
   void step_pose(const Drive& drive, std::uint64_t now_us);
   void begin_at(const Drive& drive);
 
@@ -90,7 +92,7 @@ class GyroHeading {
   HeadingFilter filter_;
   SlipWatch watch_;
   HeadingStep step_;
-  bool stepped_ = false;  // the filter was advanced in this step
+  bool stepped_ = false;  // the filter was advanced with step_
   std::uint32_t count_nradps_ = 0;
   std::int64_t count_48_ = 0;  // turn of a count held for a tick, 2^-48 turn
   std::int32_t scale_30_ = 1 << 30, lag_ticks_ = 0;

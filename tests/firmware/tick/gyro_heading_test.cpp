@@ -212,8 +212,44 @@ TEST(GyroHeading, SaysWhileTheRobotTurnsFasterThanTheGyroMeasures) {
     robot.run_ms(1);
   }
   EXPECT_EQ(robot.fused().gyro, protocol::GyroState::saturated);
+  EXPECT_NEAR(robot.fused().rate_uradps, 8.9e6, 0.1e6) << "all that 16 bits can say";
   robot.run_ms(100);
   EXPECT_EQ(robot.fused().gyro, protocol::GyroState::running);
+}
+
+TEST(GyroHeading, AKickFasterThanTheGyroMeasuresIsASlip) {
+  ParameterSet set = with_gyro();
+  set.set(Param::gyro_slip_stops, 1);
+  GyroRobot robot(robot_with_gyro(), set);
+  robot.run_ms(2000);
+  robot.arm();
+  robot.line(2);
+  robot.run_ms(2000);
+  for (int i = 0; i < 40; ++i) {
+    robot.board.kick(0.012);
+    robot.run_ms(1);
+  }
+  robot.run_ms(800);
+  EXPECT_EQ(robot.slips, 1);
+  EXPECT_EQ(robot.drive().faults().mask(), bit(Fault::gyro_slip));
+}
+
+TEST(GyroHeading, ASlipThatBeganWithoutPowerStopsARobotThatIsGivenPower) {
+  ParameterSet set = with_gyro();
+  set.set(Param::gyro_slip_stops, 1);
+  GyroRobot robot(robot_with_gyro(), set);
+  robot.run_ms(2000);
+  for (int i = 0; i < 400; ++i) {
+    robot.board.kick(20 * kDegree_rad / 400);
+    robot.run_ms(1);
+    if (i == 200) {
+      ASSERT_EQ(robot.slips, 1);
+      ASSERT_TRUE(robot.drive().arm());
+      robot.line(1);
+    }
+  }
+  EXPECT_EQ(robot.slips, 1);
+  EXPECT_EQ(robot.drive().faults().mask(), bit(Fault::gyro_slip));
 }
 
 TEST(GyroHeading, FindsTheMountingTheScaleAndTheLagInTheParameters) {
@@ -246,7 +282,10 @@ TEST(GyroHeading, APoseThatIsSetIsThePoseOfBoth) {
   robot.run_ms(1000);
   robot.state().set_pose(
       {std::int64_t{3} << 40, std::int64_t{-4} << 40, Angle::from_raw(std::uint64_t{1} << 62), 0});
+  EXPECT_EQ(robot.fused().time_us, robot.board.clock().now_us()) << "a pose of now";
+  EXPECT_EQ(robot.fused().rate_uradps, 0) << "no step has ended since";
   robot.run_ms(1000);
+  EXPECT_LT(robot.fused().time_us, robot.board.clock().now_us());
   EXPECT_NEAR(static_cast<double>(robot.fused().x) * 0x1p-40, 3, 1e-6);
   EXPECT_NEAR(static_cast<double>(robot.fused().y) * 0x1p-40, -4, 1e-6);
   EXPECT_NEAR(robot.fused_rad(), std::numbers::pi / 2, 0.2 * kDegree_rad);
