@@ -144,8 +144,8 @@ struct GyroReading {
   std::uint64_t time_us = 0;                     // when the sample came; another time for each sample
 };
 
-/// A rate gyro of three axes, fixed to the robot's body in any way. Optional: a board without one has no `gyro()`, and its
-/// firmware no code for it.
+/// A rate gyro of three axes, fixed to the robot's body in any way. Optional: a board without one has no `gyro()`, and then
+/// its firmware no code for it, or one that says `absent`.
 ///   read()  the newest sample. Never waits, and begins the fetching of the next one if the board has to do that. Tick only
 template <class T>
 concept Gyro = requires(T& gyro) {

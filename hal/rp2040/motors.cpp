@@ -64,6 +64,8 @@ void Motors::drive(hal::Duty duty) noexcept { set_both(bridge_counts(duty.left),
 void Motors::brake() noexcept { set_both(kBrake, kBrake); }
 
 void Motors::coast() noexcept {
+  // A tick that drove between these stores would find the bridges open and close them.
+  const cpu::InterruptsOff guard;
   SIO[sio::GPIO_OUT_CLR].write(1U << gp::kEnable);
   for (const Pin& pin : kBridgePins) control_of(pin.number).set(io::GPIO0_CTRL_OUTOVER(kForcedLow));
 }

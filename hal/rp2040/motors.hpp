@@ -21,8 +21,8 @@ class Motors {
   void drive(hal::Duty duty) noexcept;
   void brake() noexcept;
 
-  /// Some stores, of which the first disables the driver. Callable from any context, including fault handlers, and before
-  /// start(), where the stores change nothing and all pins are inputs.
+  /// Some stores without an interrupt in between, of which the first disables the driver. Callable from any context,
+  /// including fault handlers, and before start(), where the stores change nothing and all pins are inputs.
   static void coast() noexcept;
 
   /// The driver chip pulls its line low: over-current, over-temperature, or no motor connected. A pulse of less than a

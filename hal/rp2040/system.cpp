@@ -9,6 +9,7 @@
 namespace astro::rp2040 {
 
 void System::start() {
+  watchdog_timer::stop();
   id_ = rp2040::unique_id(Flash::serial_number());
   cause_ = rp2040::reset_cause(WATCHDOG[watchdog::REASON].read(),
                                VREG_AND_CHIP_RESET[chip_reset::CHIP_RESET].read(),
@@ -29,6 +30,7 @@ bool System::enter_bootloader() noexcept {
   const cpu::InterruptsOff guard;  // no tick may drive again
   Motors::coast();
   WATCHDOG[watchdog::SCRATCH0].write(marker::kReboot);  // for the start after the loader
+  watchdog_timer::stop();                               // nobody feeds it in the loader
   loader(0, 0);
   return true;
 }

@@ -26,6 +26,8 @@ void start() {
       watchdog::CTRL_ENABLE(1));  // goes on while a debugger halts the core: no motor may
 }
 
+void stop() { WATCHDOG[watchdog::CTRL].clear(watchdog::CTRL_ENABLE.mask()); }
+
 void feed() { WATCHDOG[watchdog::LOAD].write(kLoad); }
 
 void restart(std::uint32_t left_marker) {

@@ -8,8 +8,11 @@ namespace astro::rp2040::watchdog_timer {
 /// sector.
 inline constexpr std::uint32_t kTimeOut_ms = 512;
 
-/// Starts the watchdog, which is off after every reset.
+/// Starts the watchdog.
 void start();
+
+/// Stops it. A restart by the watchdog does not reset the watchdog itself, so it may still run when the chip starts.
+void stop();
 
 /// A single store; callable from any context.
 void feed();

@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { bench, expectNoComplaints, open, print } from './bench.mjs';
+import { bench, expectNoComplaints, open, print, symbols } from './bench.mjs';
 import { cause, Host, id, kWatchdogFault, mode } from './rig/host.mjs';
+import { pins } from './rig/pico.mjs';
 
 const kSpare = 0x20030000; // SRAM behind the program
 
@@ -94,6 +95,22 @@ test('a stack that outgrows its memory touches nobody\'s data: the core locks up
   print(`stack overflow: outputs off after ${off_ms.toFixed(0)} ms`);
   assert.ok(off_ms < 520);
   assert.equal(afterRestart(all).cause, cause.watchdog);
+});
+
+test('no tick comes between the stores that open the bridges', () => {
+  const all = driving(), { chip } = all.pico;
+  derail(all, 0, kForEver);
+  chip.core.LR = kSpare | 1;
+  chip.core.PC = symbols.get('_ZN5astro6rp20406Motors5coastEv');
+  const { enable, bridge } = pins, forced = () => bridge.flat().filter((pin) => chip.gpio[pin].outputOverride === 2).length;
+  let between = 0;
+  for (let i = 0; i < 1000 && forced() < 4; ++i) {
+    all.pico.runFor(8);
+    if (chip.gpio[enable].outputValue || forced() === 4) continue;
+    ++between;
+    assert.ok(chip.core.PM, `an interrupt may come with ${forced()} of 4 pins low`);
+  }
+  assert.ok(between > 3);
 });
 
 test('a reboot and the boot loader open the bridges, and a reboot is no fault', () => {

@@ -19,7 +19,7 @@ const kOutOfReset = (1 << 6) | (1 << 9) | (1 << 18); // what the boot ROM needs
 const quiet = { debug() {}, info() {}, warn() {}, error() {} };
 
 export class Chip extends RP2040 {
-  constructor(flash, { reason = 0, scratch = new Uint32Array(8), chipReset = 1 << 8 } = {}) {
+  constructor(flash, { reason = 0, scratch = new Uint32Array(8), chipReset = 1 << 8, watchdogRuns = false } = {}) {
     super();
     this.flashPart = flash;
     this.complaints = [];
@@ -38,6 +38,7 @@ export class Chip extends RP2040 {
     this.watchdog.reason = reason;
     this.watchdog.tickEnable = false;
     this.watchdog.scratchData.set(scratch);
+    this.requireStoppedWatchdog(watchdogRuns);
     this.watchdog.onWatchdogTrigger = () => this.watchdogTriggered();
     this.psm = new Words(this, 'PSM');
     Object.assign(this.peripherals, {
@@ -154,6 +155,18 @@ export class Chip extends RP2040 {
     };
   }
 
+  // A restart by the watchdog does not reset it. What its timer does after its end is not known, so the firmware must stop it.
+  requireStoppedWatchdog(runs) {
+    const { watchdog } = this, write = watchdog.writeUint32.bind(watchdog);
+    watchdog.writeUint32 = (offset, value) => {
+      if (offset === 0 && !(value & (1 << 31))) {
+        if (runs && value & (1 << 30)) this.complain('the watchdog is started before it was stopped');
+        runs = false;
+      }
+      write(offset, value);
+    };
+  }
+
   setPin(number, level) {
     this.syncPio();
     this.gpio[number].setInputValue(level);
@@ -165,6 +178,7 @@ export class Chip extends RP2040 {
     this.ended = 'watchdog';
   }
   enterLoader(why) {
+    if (this.watchdog.enable) this.complain('the watchdog runs on in the boot loader, where nobody feeds it');
     this.loaderReason = why;
     this.ended = 'loader';
   }

@@ -58,8 +58,8 @@ export class Pico {
   }
   restart() {
     ++this.restarts;
-    const { reason, scratchData } = this.chip.watchdog;
-    this.start(new Chip(this.flash, { reason, scratch: scratchData, chipReset: kPor }));
+    const { reason, scratchData, enable } = this.chip.watchdog;
+    this.start(new Chip(this.flash, { reason, scratch: scratchData, chipReset: kPor, watchdogRuns: enable }));
   }
 
   word(address) {
