@@ -42,7 +42,7 @@ struct Loadable {
 };
 
 Loadable read_image(const fs::path& file) {
-  if (begins_as_uf2(file)) return {read_uf2_image(file), kUf2};
+  if (begins_as_uf2(file) || file.extension() == ".uf2") return {read_uf2_image(file), kUf2};
   return {read_firmware_image(file), kHex};
 }
 
@@ -52,15 +52,15 @@ struct FlashOptions {
   bool button = false, yes = false;
 };
 
-std::unique_ptr<robot::Client> find_robot(ConnectionOptions& options) {
+std::unique_ptr<robot::Client> find_robot(ConnectionOptions& options, const Destination& destination) {
   try {
     return connect(options);
   } catch (const Error& error) {
     const bool silent = dynamic_cast<const robot::LinkLost*>(&error) != nullptr;
     const bool absent = options.port.empty() ? robot::candidate_ports().empty() : !fs::exists(options.port);
     if (!silent && !absent) throw;
-    throw Error(fmt::format("{} (if it runs no firmware, press its button and flash with --button)",
-                            in_words(error)));
+    throw Error(fmt::format("{} (if it runs no firmware, flash with --button: {})", in_words(error),
+                            destination.person_does));
   }
 }
 
@@ -101,14 +101,13 @@ void check_disarmed(robot::Client& client) {
     throw Error(fmt::format("the robot is armed ({}): 'astrolabe stop' disarms it", protocol::name(mode)));
 }
 
-void wait_for(robot::Client& client) {
+void wait_for(robot::Client& client, const Destination& destination) {
   try {
     client.reconnect(std::chrono::seconds(10));
   } catch (const robot::LinkLost& error) {
-    throw Error(
-        fmt::format("the robot did not come back: {} (if its LED does not blink, press its button and flash "
-                    "again with --button)",
-                    in_words(error)));
+    throw Error(fmt::format(
+        "the robot did not come back: {} (if its LED does not blink, flash again with --button: {})",
+        in_words(error), destination.person_does));
   }
 }
 
@@ -142,7 +141,7 @@ void run(FlashOptions& options) {
     return console::say(
         fmt::format("flashed {}; next, once its LED blinks: astrolabe info", options.file.string()));
   }
-  const auto client = find_robot(options.connection);
+  const auto client = find_robot(options.connection, loadable.destination);
   const std::string old = robot::firmware_version(client->robot());
   console::say(fmt::format("{} runs firmware {}", client->robot().robot_name.view(), old));
   check_board(client->robot(), loadable.destination.board, options.file);
@@ -154,7 +153,7 @@ void run(FlashOptions& options) {
   if (!is_for_its_board(loadable))
     return console::say(
         fmt::format("flashed {}; whether it runs, 'astrolabe info' shows if it can", options.file.string()));
-  wait_for(*client);
+  wait_for(*client, loadable.destination);
   check_version(image.version, robot::firmware_version(client->robot()));
   const robot::RemoteParameters now = robot::RemoteParameters::fetch(*client);
   check_parameters(before, now);
@@ -166,7 +165,10 @@ constexpr Advice kFlashAdvice[] = {
     {ImageProblem::unreadable, ": build one with './dev firmware'"},
     {ImageProblem::too_large, ": build one with './dev firmware'"},
     {ImageProblem::of_other_board, ": build one with './dev firmware'"},
-    {ImageProblem::not_uf2, " with './dev firmware rp2040'"},
+    {Uf2Problem::unreadable, ": build one with './dev firmware rp2040'"},
+    {Uf2Problem::too_large, ": build one with './dev firmware rp2040'"},
+    {Uf2Problem::of_other_board, ": build one with './dev firmware rp2040'"},
+    {Uf2Problem::damaged, " with './dev firmware rp2040'"},
 };
 
 }  // namespace

@@ -62,14 +62,7 @@ std::string unescaped(const std::string& field) {
 std::optional<fs::path> find_drive() {
   if (const char* named = std::getenv("ASTROLABE_PICO_DRIVE"); named != nullptr)
     return is_pico_drive(named) ? std::optional<fs::path>(named) : std::nullopt;
-  std::istringstream mounts(contents("/proc/self/mounts"));
-  for (std::string line; std::getline(mounts, line);) {
-    std::istringstream fields(line);
-    std::string device, folder, type;
-    fields >> device >> folder >> type;
-    if (type == "vfat" && is_pico_drive(unescaped(folder))) return unescaped(folder);
-  }
-  return std::nullopt;
+  return pico_drive_among(contents("/proc/self/mounts"));
 }
 
 fs::path wait_for_drive() {
@@ -110,6 +103,28 @@ void copy(const Bytes& bytes, const fs::path& to) {
 }
 
 }  // namespace
+
+std::optional<fs::path> pico_drive_among(const std::string& mounts) {
+  std::istringstream lines(mounts);
+  std::string device_found;
+  std::optional<fs::path> found;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::string device, folder, type;
+    fields >> device >> folder >> type;
+    std::error_code missing;
+    // The files of a device that was unplugged may still be read, from memory.
+    if (type != "vfat" || !fs::exists(unescaped(device), missing) || !is_pico_drive(unescaped(folder)))
+      continue;
+    if (found && device != device_found)
+      throw Error(
+          fmt::format("'{}' and '{}' are both drives RPI-RP2: unplug the Pico that is not to be flashed",
+                      found->string(), unescaped(folder)));
+    device_found = device;
+    found = unescaped(folder);
+  }
+  return found;
+}
 
 void copy_to_pico(const fs::path& uf2) {
   const Bytes bytes = load_file(uf2);

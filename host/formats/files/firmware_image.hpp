@@ -7,9 +7,8 @@
 
 namespace astro {
 
-/// Why a file is no image for this board. Values: the file; of not_intel_hex also the line, of not_uf2 also the block,
-/// counted from 1.
-enum class ImageProblem { unreadable, too_large, of_other_board, not_intel_hex, not_uf2 };
+/// Why a file is no image for a Teensy 4.0. Values: the file; of not_intel_hex also the line, counted from 1.
+enum class ImageProblem { unreadable, too_large, of_other_board, not_intel_hex };
 
 /// What flashing a file writes into the board's program memory.
 struct FirmwareImage {

@@ -38,11 +38,11 @@ Bytes read(const fs::path& path) {
   std::ifstream file;
   if (regular) file.open(path, std::ios::binary);
   if (!regular || !file)
-    throw Error(fmt::format("cannot read '{}'", path.string()), ImageProblem::unreadable, {path.string()});
+    throw Error(fmt::format("cannot read '{}'", path.string()), Uf2Problem::unreadable, {path.string()});
   const std::uintmax_t size = fs::file_size(path, missing);
   if (size > kMostBytes)
     throw Error(fmt::format("'{}' is larger than any image for an RP2040", path.string()),
-                ImageProblem::too_large, {path.string()});
+                Uf2Problem::too_large, {path.string()});
   Bytes bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
@@ -58,11 +58,11 @@ void take(ByteView block, std::size_t number, std::size_t count, const std::stri
   if (!sound)
     throw Error(fmt::format("block {} of '{}' is no block of UF2 for an RP2040: build the image again",
                             number + 1, file),
-                ImageProblem::not_uf2, {file, std::to_string(number + 1)});
+                Uf2Problem::damaged, {file, std::to_string(number + 1)});
   const std::uint32_t at = word(3) - kFlash;
   const bool fits = at % kPayload == 0 && at <= FirmwareImage::kBytes - kPayload;
   if (word(2) != kFamilyPresent || word(7) != kRp2040 || !fits)
-    throw Error(fmt::format("'{}' is no image for an RP2040", file), ImageProblem::of_other_board, {file});
+    throw Error(fmt::format("'{}' is no image for an RP2040", file), Uf2Problem::of_other_board, {file});
   std::copy_n(block.begin() + kDataAt, kPayload, image.flash.begin() + at);
 }
 
@@ -82,13 +82,15 @@ FirmwareImage read_uf2_image(const fs::path& path) {
   const std::size_t count = bytes.size() / kBlock;
   if (count == 0 || bytes.size() % kBlock != 0)
     throw Error(fmt::format("'{}' ends within a block of UF2: build or copy it again", file),
-                ImageProblem::not_uf2, {file, std::to_string(count + 1)});
+                Uf2Problem::damaged, {file, std::to_string(count + 1)});
   FirmwareImage image{Bytes(FirmwareImage::kBytes, 0xFF), "", ""};
   for (std::size_t number = 0; number < count; ++number)
     take(ByteView(bytes).subspan(number * kBlock, kBlock), number, count, file, image);
   if (stage_sum(ByteView(image.flash).first(kStageBytes)) != load<std::uint32_t>(image.flash, kStageBytes))
-    throw Error(fmt::format("'{}' would not start: the check sum of its first 252 bytes is wrong", file),
-                ImageProblem::of_other_board, {file});
+    throw Error(
+        fmt::format("'{}' is damaged, the check sum of its first 252 bytes is wrong: build or copy it again",
+                    file),
+        Uf2Problem::damaged, {file, "1"});
   read_image_info(image, kRp2040InfoAt);
   return image;
 }

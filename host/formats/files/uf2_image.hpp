@@ -6,6 +6,9 @@
 
 namespace astro {
 
+/// Why a file is no image for an RP2040. Values: the file; of damaged also the block, counted from 1.
+enum class Uf2Problem { unreadable, too_large, of_other_board, damaged };
+
 /// Whether a file begins as UF2 files do. False if it cannot be read.
 bool begins_as_uf2(const std::filesystem::path& file);
 

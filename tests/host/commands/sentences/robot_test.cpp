@@ -18,6 +18,7 @@ TEST_F(OtherSentences, TellWhatIsWrongWithAnImage) {
   write("other.hex", ":00000001FF\n");
   write("low.hex", ":10000000000102030405060708090A0B0C0D0E0F78\n");
   write("empty.hex", "");
+  write("empty.uf2", "");
   expect({
       {"no file", "flash none.hex --button", "cannot read 'none.hex': build one with './dev firmware'"},
       {"no Intel HEX", "flash table.hex --button",
@@ -27,6 +28,10 @@ TEST_F(OtherSentences, TellWhatIsWrongWithAnImage) {
       {"another board's addresses", "flash low.hex --button",
        "low.hex:1 lies at 0x00000000, where a Teensy 4.0 has no program memory"},
       {"cut off", "flash empty.hex --button", "'empty.hex' has no end: build the image again"},
+      {"no file for a Pico", "flash none.uf2 --button",
+       "cannot read 'none.uf2': build one with './dev firmware rp2040'"},
+      {"cut off, for a Pico", "flash empty.uf2 --button",
+       "'empty.uf2' ends within a block of UF2: build or copy it again with './dev firmware rp2040'"},
   });
 }
 

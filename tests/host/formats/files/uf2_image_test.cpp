@@ -75,13 +75,13 @@ TEST_F(Uf2File, IsReadToItsPlaceWithVersionAndBoard) {
 TEST_F(Uf2File, WithADamagedBlockIsRefusedByItsNumber) {
   for (const std::size_t at : {0U, 4U, 16U, 20U, 24U, 508U})
     EXPECT_THAT([&] { read_uf2_image(holding(with(kUf2Block + at, 0x1234'5678))); },
-                ThrowsTelling(ImageProblem::not_uf2, path().string(), "2"))
+                ThrowsTelling(Uf2Problem::damaged, path().string(), "2"))
         << at;
   for (const std::size_t size : {0U, 511U, 513U, 1023U}) {
     Bytes cut = file_;
     cut.resize(size);
     EXPECT_THAT([&] { read_uf2_image(holding(cut)); },
-                ThrowsTelling(ImageProblem::not_uf2, path().string(), size < 512 ? "1" : "2"))
+                ThrowsTelling(Uf2Problem::damaged, path().string(), size < 512 ? "1" : "2"))
         << size;
   }
 }
@@ -95,14 +95,14 @@ TEST_F(Uf2File, OfAnotherChipOrOutsideTheProgramIsForAnotherBoard) {
                                                                     {12, 0x0FFF'FF00},
                                                                     {12, 0x1000'0080}})
     EXPECT_THAT([&] { read_uf2_image(holding(with(kUf2Block + at, word))); },
-                ThrowsTelling(ImageProblem::of_other_board, path().string()))
+                ThrowsTelling(Uf2Problem::of_other_board, path().string()))
         << at << ' ' << word;
 }
 
-TEST_F(Uf2File, ThatTheBootRomWouldNotStartIsRefused) {
+TEST_F(Uf2File, ThatTheBootRomWouldNotStartIsDamaged) {
   for (const std::size_t at : {32U, 32U + 248U, 32U + 252U})
     EXPECT_THAT([&] { read_uf2_image(holding(with(at, 1))); },
-                ThrowsTelling(ImageProblem::of_other_board, path().string()))
+                ThrowsTelling(Uf2Problem::damaged, path().string(), "1"))
         << at;
 }
 
@@ -116,7 +116,7 @@ TEST_F(Uf2File, FarLargerThanAnyImageIsRefusedUnread) {
   const Bytes large(50'000'000, 0);
   holding(large);
   const support::Taken taken = support::measured([&] {
-    EXPECT_THAT([&] { read_uf2_image(path()); }, ThrowsTelling(ImageProblem::too_large, path().string()));
+    EXPECT_THAT([&] { read_uf2_image(path()); }, ThrowsTelling(Uf2Problem::too_large, path().string()));
   });
   EXPECT_BOUNDED(taken, large.size());
 }
@@ -126,7 +126,7 @@ TEST_F(Uf2File, ThatIsAPipeOrADeviceIsNotWaitedFor) {
   EXPECT_FALSE(begins_as_uf2(path()));
   EXPECT_FALSE(begins_as_uf2("/dev/zero"));
   EXPECT_FALSE(begins_as_uf2(folder_.path() / "absent"));
-  EXPECT_THAT([&] { read_uf2_image(path()); }, ThrowsTelling(ImageProblem::unreadable, path().string()));
+  EXPECT_THAT([&] { read_uf2_image(path()); }, ThrowsTelling(Uf2Problem::unreadable, path().string()));
 }
 
 TEST_F(Uf2File, OfRandomBytesIsAnImageOrAnError) {
