@@ -11,8 +11,10 @@
 /// A drive of which the wheels and the scans of a scanner on the robot were recorded.
 namespace astro::lidar {
 
-/// Passes scans on, in order of time.
+/// Passes scans on, in order of time. Their times are within kLatest_ns, so that the difference of two is a time, too.
 using ScanHandler = std::function<void(const Scan&)>;
+
+inline constexpr std::int64_t kLatest_ns = std::int64_t{1} << 62;
 
 struct ScannedDrive {
   std::string name;

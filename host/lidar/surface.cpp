@@ -21,7 +21,9 @@ std::vector<SurfacePoint> points_of(const Scan& scan, const Twist2& velocity) {
     const double late_s = static_cast<double>(beam) * scan.beam_interval_s;
     const Point2 seen{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
     const Twist2 moved{late_s * velocity.x_m, late_s * velocity.y_m, late_s * velocity.theta_rad};
-    points.push_back({late_s > 0 ? moved.exp() * seen : seen, {}, false});
+    const Point2 at = late_s > 0 ? moved.exp() * seen : seen;
+    // Odd angles or times of a scan give points that have no order.
+    if (std::isfinite(at.x_m) && std::isfinite(at.y_m)) points.push_back({at, {}, false});
   }
   return points;
 }

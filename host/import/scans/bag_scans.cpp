@@ -1,7 +1,10 @@
 #include "host/import/scans/bag_scans.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -43,21 +46,39 @@ lidar::Scan scan_of(LaserScan& message, std::int64_t time_ns) {
           std::move(message.ranges)};
 }
 
+/// No scanner has more beams or sees beyond a turn. Without such limits a damaged message takes an hour, or has points nowhere.
 bool can_be_read(const LaserScan& message) {
-  return std::isfinite(message.angle_min) && std::isfinite(message.angle_increment) &&
-         message.angle_increment != 0;
+  constexpr std::size_t kMostBeams = 100'000;
+  constexpr float kTurn_rad = 2.01F * std::numbers::pi_v<float>;  // rounded
+  return std::abs(message.angle_min) <= kTurn_rad && std::abs(message.angle_increment) <= kTurn_rad &&
+         message.angle_increment != 0 && message.ranges.size() <= kMostBeams;
 }
 
-/// Messages that cannot be read are left out.
-void each_scan(const fs::path& path, const std::string& topic,
-               const std::function<void(LaserScan&, std::int64_t)>& handle) {
+/// Messages that cannot be read are left out. Returns how many.
+std::size_t each_scan(const fs::path& path, const std::string& topic,
+                      const std::function<void(LaserScan&, std::int64_t)>& handle) {
+  std::size_t left_out = 0;
   bag::BagHandlers handlers;
   handlers.wants = [&](const bag::BagTopic& at) { return at.name == topic && at.type == LaserScan::kType; };
   handlers.message = [&](const bag::BagTopic&, const bag::BagMessage& message) {
     std::optional<LaserScan> scan = ros2::decode<LaserScan>(message.data);
-    if (scan && can_be_read(*scan)) handle(*scan, message.log_time_ns);
+    if (scan && can_be_read(*scan))
+      handle(*scan, message.log_time_ns);
+    else
+      ++left_out;
   };
   bag::read_bag(path, handlers);
+  return left_out;
+}
+
+void tell_of_unreadable(const fs::path& path, std::size_t kept, std::size_t left_out, BagScans& found) {
+  if (kept == 0)
+    throw Error(
+        fmt::format("none of the {} scans of {} in '{}' can be read", left_out, found.topic, path.string()),
+        ScanFileProblem::all_unreadable, {path.string(), found.topic, fmt::format("{}", left_out)});
+  if (left_out > 0)
+    found.remarks.push_back(
+        {fmt::format("scans of {}: {} cannot be read and were left out", found.topic, left_out)});
 }
 
 std::vector<std::string> scan_topics(const fs::path& path) {
@@ -88,7 +109,12 @@ BagScans scans_in_bag(const fs::path& path, const std::string& topic) {
   BagScans found;
   found.topic = chosen_topic(path, topic);
   StampCount stamps;
-  each_scan(path, found.topic, [&](LaserScan& scan, std::int64_t) { stamps.take(stamp_ns(scan)); });
+  std::size_t kept = 0;
+  const std::size_t left_out = each_scan(path, found.topic, [&](LaserScan& scan, std::int64_t) {
+    stamps.take(stamp_ns(scan));
+    ++kept;
+  });
+  tell_of_unreadable(path, kept, left_out, found);
   const bool stamped = stamps.most_are_set();
   if (stamped) {
     stamps.remark("scans of " + found.topic, found.remarks);

@@ -40,54 +40,92 @@ ArcStep arc_step(const Pose2& step) {
   return {chord.x_m / sinc(step.theta_rad / 2), chord.y_m, step.theta_rad};
 }
 
-/// Whether the scans' poses leap away from where odometry ended: odometry is repeated from there, or they leap sideways or against
-/// the motion before, as no wheels move.
-bool poses_leap(const std::vector<LogPose>& poses) {
-  constexpr double kRounding_m = 5e-4, kClearly = 3, kOften = 0.2, kMoves_m = 1e-3, kNearlyAll = 0.9;
-  std::vector<double> leaps_m, steps_m;
-  std::size_t onward = 0, back = 0, leaps = 0, repeated = 0;
-  ArcStep before{};
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    const ArcStep step = arc_step(step_between(poses[i - 1].pose, poses[i].pose));
-    (poses[i].scan ? leaps_m : steps_m).push_back(std::abs(step.sideways_m));
-    if (poses[i].scan && (step.along_m != 0 || step.turned_rad != 0)) {
-      ++leaps;
-      if (i + 1 < poses.size() && same_pose(poses[i].pose, poses[i + 1].pose)) ++repeated;
-    }
-    if (poses[i].scan && std::abs(step.along_m) > kMoves_m && std::abs(before.along_m) > kMoves_m)
-      ++(step.along_m * before.along_m < 0 ? back : onward);
-    before = step;
-  }
-  if (leaps_m.empty() || steps_m.empty() || leaps == 0) return false;
-  const auto part_of = [](std::size_t some, std::size_t all) {
-    return static_cast<double>(some) / static_cast<double>(std::max<std::size_t>(all, 1));
-  };
-  return part_of(repeated, leaps) > kNearlyAll || part_of(back, back + onward) > kOften ||
-         median_of(std::move(leaps_m)) > kRounding_m + kClearly * median_of(std::move(steps_m));
+/// How far a step brings the robot, with turns as the way of a wheel.
+double motion_m(const ArcStep& step) {
+  constexpr double kHalfTrack_m = 0.2;
+  return std::abs(step.along_m) + kHalfTrack_m * std::abs(step.turned_rad);
 }
 
-/// The greatest range if it stands for "nothing seen": many beams have exactly this value.
+/// What the steps onto scans ("leaps") and those of odometry are like.
+struct Leaps {
+  std::vector<double> leaps_m, steps_m;  // sideways
+  std::size_t onward = 0, back = 0, leaps = 0, repeated = 0;
+  double leapt_m = 0, stepped_m = 0;  // motion, added up
+  bool mapped = false;
+
+  explicit Leaps(const std::vector<LogPose>& poses) {
+    ArcStep before{};
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      const ArcStep step = arc_step(step_between(poses[i - 1].pose, poses[i].pose));
+      const bool repeats = i + 1 < poses.size() && same_pose(poses[i].pose, poses[i + 1].pose);
+      mapped = mapped || poses[i].mapped;
+      poses[i].scan ? add_leap(step, before, repeats)
+                    : add_step(step, poses[i - 1].scan && same_pose(poses[i - 1].pose, poses[i].pose));
+      before = step;
+    }
+  }
+
+ private:
+  void add_leap(const ArcStep& step, const ArcStep& before, bool repeats) {
+    constexpr double kMoves_m = 1e-3;
+    leaps_m.push_back(std::abs(step.sideways_m));
+    leapt_m += motion_m(step);
+    if (step.along_m != 0 || step.turned_rad != 0) {
+      ++leaps;
+      if (repeats) ++repeated;
+    }
+    if (std::abs(step.along_m) > kMoves_m && std::abs(before.along_m) > kMoves_m)
+      ++(step.along_m * before.along_m < 0 ? back : onward);
+  }
+  /// A line that repeats the scan's pose is no step, and says nothing of how steps scatter.
+  void add_step(const ArcStep& step, bool repeats_scan) {
+    if (repeats_scan) return;
+    steps_m.push_back(std::abs(step.sideways_m));
+    stepped_m += motion_m(step);
+  }
+};
+
+/// Whether the scans' poses leap away from where odometry ended: odometry is repeated from there, or they leap sideways or against
+/// the motion before, as no wheels move. A raw log may repeat the poses of its scans, too, but there the leaps are the motion.
+bool poses_leap(const std::vector<LogPose>& poses) {
+  constexpr double kRounding_m = 5e-4, kClearly = 3, kOften = 0.2, kNearlyAll = 0.9, kCorrections = 0.5;
+  Leaps all(poses);
+  const auto part_of = [](std::size_t some, std::size_t of) {
+    return static_cast<double>(some) / static_cast<double>(std::max<std::size_t>(of, 1));
+  };
+  const bool mostly_repeated = part_of(all.repeated, all.leaps) > kNearlyAll;
+  if (mostly_repeated && all.mapped) return true;
+  if (all.leaps == 0 || all.steps_m.empty()) return false;
+  return (mostly_repeated && all.leapt_m < kCorrections * all.stepped_m) ||
+         part_of(all.back, all.back + all.onward) > kOften ||
+         median_of(std::move(all.leaps_m)) > kRounding_m + kClearly * median_of(std::move(all.steps_m));
+}
+
+/// Finds the range that stands for "nothing seen": many beams have exactly this value, to the millimetre of such logs, and only
+/// glitches lie beyond it.
 class GreatestRange {
  public:
   void add(const std::vector<float>& ranges_m) {
     for (const float range_m : ranges_m) {
-      ++all_;
-      if (range_m > greatest_m_) {
-        greatest_m_ = range_m;
-        count_ = 0;
-      }
-      if (range_m == greatest_m_) ++count_;
+      const double in_mm = std::round(1e3 * static_cast<double>(range_m));
+      ++counts_[static_cast<std::size_t>(std::clamp(in_mm, 0.0, static_cast<double>(counts_.size() - 1)))];
     }
+    all_ += ranges_m.size();
   }
   double limit_m() const {
-    constexpr std::size_t kOneOf = 100;
-    const bool means_nothing = count_ * kOneOf > all_;
-    return means_nothing ? std::min(kFarthest_m, 0.999 * static_cast<double>(greatest_m_)) : kFarthest_m;
+    constexpr std::size_t kMany = 100, kGlitches = 500;  // one in so many
+    std::size_t beyond = 0;
+    for (std::size_t mm = counts_.size(); mm-- > 0 && beyond * kGlitches <= all_; beyond += counts_[mm])
+      if (counts_[mm] * kMany > all_) return std::min(kFarthest_m, below(1e-3 * static_cast<double>(mm)));
+    return kFarthest_m;
   }
+  /// Excludes readings of exactly this range.
+  static double below(double range_m) { return 0.999 * range_m; }
 
  private:
-  float greatest_m_ = 0;
-  std::size_t count_ = 0, all_ = 0;
+  /// The last one is of all ranges that lie so far that they do not count anyway.
+  std::vector<std::size_t> counts_ = std::vector<std::size_t>(static_cast<std::size_t>(1.1e3 * kFarthest_m));
+  std::size_t all_ = 0;
 };
 
 struct Walk {
@@ -165,7 +203,8 @@ CarmenLog read_carmen_log(const std::filesystem::path& path, double wheelbase_m)
       if (!message.is_scan) return;
       message.scan.time_ns = time_ns;
       message.scan.range_min_m = kNearest_m;
-      message.scan.range_max_m = limit_m;
+      const double said_m = message.scan.range_max_m;
+      message.scan.range_max_m = said_m > 0 ? std::min(limit_m, GreatestRange::below(said_m)) : limit_m;
       handle(message.scan);
     });
   };

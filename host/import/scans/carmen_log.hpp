@@ -25,7 +25,15 @@
 namespace astro::importing {
 
 /// Why a file gives no scans. Values: the file; of topic_unclear the topics.
-enum class ScanFileProblem { no_odometry, no_scans, not_scans, topic_unclear, wheels_of_other_file };
+/// all_unreadable also the topic and how many scans it has.
+enum class ScanFileProblem {
+  no_odometry,
+  no_scans,
+  not_scans,
+  topic_unclear,
+  wheels_of_other_file,
+  all_unreadable
+};
 
 struct CarmenLog {
   bool corrected = false;  // by a mapping program

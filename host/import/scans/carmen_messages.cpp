@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -10,7 +11,7 @@
 namespace astro::importing {
 namespace {
 
-constexpr double kHalfTurn_rad = std::numbers::pi;
+constexpr double kHalfTurn_rad = std::numbers::pi, kTurn_rad = 2.01 * kHalfTurn_rad;  // rounded
 
 /// Calls `handle` with each line.
 template <class Handle>
@@ -29,6 +30,7 @@ class Fields {
   explicit Fields(std::string_view line) : rest_(line) { word(); }
 
   bool ok() const { return ok_; }
+  void require(bool condition) { ok_ = ok_ && condition; }
   double number() {
     const std::string_view text = word();
     const std::optional<double> value = text.empty() ? std::nullopt : number_in(text);
@@ -61,8 +63,9 @@ class Fields {
 
 void read_ranges(Fields& fields, std::size_t count, lidar::Scan& scan) {
   scan.ranges_m.reserve(count);
+  constexpr double kMost_m = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < count && fields.ok(); ++i)
-    scan.ranges_m.push_back(static_cast<float>(fields.number()));
+    scan.ranges_m.push_back(static_cast<float>(std::clamp(fields.number(), -kMost_m, kMost_m)));
 }
 
 CarmenMessage laser_of(Fields& fields) {
@@ -87,6 +90,8 @@ CarmenMessage robot_laser_of(Fields& fields) {
   message.scan.first_angle_rad = fields.number();
   fields.number();
   message.scan.angle_step_rad = fields.number();
+  fields.require(std::abs(message.scan.first_angle_rad) <= kTurn_rad && message.scan.angle_step_rad != 0 &&
+                 std::abs(message.scan.angle_step_rad) <= kTurn_rad);
   message.scan.range_max_m = fields.number();
   fields.number();
   fields.number();

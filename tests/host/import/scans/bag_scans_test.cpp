@@ -91,5 +91,53 @@ TEST_F(BagScansTest, ThatAreNotThereAreMissed) {
   }
 }
 
+/// A scan that can be read.
+ros2::msg::LaserScan plain_scan() {
+  ros2::msg::LaserScan scan;
+  scan.angle_min = -1;
+  scan.angle_increment = 1;
+  scan.range_max = 10;
+  scan.ranges = {1, 2, 3};
+  return scan;
+}
+
+class OddScans : public BagScansTest {
+ protected:
+  std::filesystem::path bag_of(const std::vector<ros2::msg::LaserScan>& scans) {
+    const std::filesystem::path path = folder_.path() / "odd.mcap";
+    write_scans(path, scans);
+    return path;
+  }
+  static std::size_t read_from(const BagScans& scans) {
+    std::size_t read = 0;
+    scans.read([&](const lidar::Scan&) { ++read; });
+    return read;
+  }
+};
+
+TEST_F(OddScans, AreLeftOutAndCounted) {
+  std::vector<ros2::msg::LaserScan> scans(5, plain_scan());
+  scans[1].ranges.resize(100'001, 1);
+  scans[2].angle_increment = 7;
+  scans[3].angle_min = -1e30F;
+  const BagScans found = scans_in_bag(bag_of(scans));
+  EXPECT_EQ(read_from(found), 2u);
+  ASSERT_FALSE(found.remarks.empty());
+  EXPECT_EQ(found.remarks.front().sentence, "scans of /scan: 3 cannot be read and were left out");
+}
+
+TEST_F(OddScans, AloneAreRefusedWithTheirNumber) {
+  ros2::msg::LaserScan odd = plain_scan();
+  odd.angle_increment = 0;
+  const std::filesystem::path path = bag_of({odd, odd});
+  try {
+    scans_in_bag(path);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Kind(ScanFileProblem::all_unreadable));
+    EXPECT_EQ(error.values(), (std::vector<std::string>{path.string(), "/scan", "2"}));
+  }
+}
+
 }  // namespace
 }  // namespace astro::importing

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "host/base/files.hpp"
@@ -49,6 +51,32 @@ TEST_F(CarmenLogTest, GivesTheSameWheelsRawAndCorrected) {
   EXPECT_NEAR(raw.drive.wheels.back().right_m, corrected.drive.wheels.back().right_m, 2e-3);
 }
 
+/// A raw log whose lines of odometry repeat the scans' poses.
+std::string scans_before_odometry(const std::string& raw, bool between) {
+  std::istringstream lines(raw);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    if (between || !line.starts_with("ODOM")) text += line + '\n';
+    if (!line.starts_with("FLASER")) continue;
+    std::istringstream words(line);
+    const std::vector<std::string> all{std::istream_iterator<std::string>(words), {}};
+    const std::size_t pose = 2 + std::stoul(all[1]);
+    text += "ODOM " + all[pose] + ' ' + all[pose + 1] + ' ' + all[pose + 2] + " 0 0 0 1 host 1\n";
+  }
+  return text;
+}
+
+TEST_F(CarmenLogTest, KeepsTheMotionOfARawLogWhoseOdometryRepeatsItsScans) {
+  const std::string raw = carmen_text(driven(1), false);
+  const CarmenLog plain = read(raw);
+  for (const bool between : {false, true}) {
+    const CarmenLog log = read(scans_before_odometry(raw, between));
+    EXPECT_FALSE(log.corrected) << between;
+    EXPECT_NEAR(log.way_m, plain.way_m, 0.01 * plain.way_m) << between;
+    EXPECT_NEAR(log.drive.wheels.back().left_m, plain.drive.wheels.back().left_m, 0.02) << between;
+  }
+}
+
 TEST_F(CarmenLogTest, CalibratesTheRobotThatDroveIt) {
   for (const bool corrected : {false, true}) {
     const CarmenLog log = read(carmen_text(driven(3), corrected));
@@ -83,6 +111,23 @@ TEST_F(CarmenLogTest, OfBeamsThatSawNothingLeavesOutTheGreatestRange) {
           if (!(static_cast<double>(range_m) < scan.range_max_m)) ++beyond;
       });
   EXPECT_EQ(beyond, 2u);
+}
+
+TEST_F(CarmenLogTest, OfBeamsThatSawNothingLeavesOutTheGreatestRangeInSpiteOfAGlitchBeyond) {
+  std::string text = "ODOM 0 0 0 0 0 0 1 h 1\nODOM 1 0 0 0 0 0 1 h 1\n";
+  constexpr int kScans = 20, kSeen = 80;
+  for (int scan = 0; scan < kScans; ++scan) {
+    text += "FLASER 100 " + std::string(scan == 0 ? "8.01" : "8.00");
+    for (int beam = 1; beam < 100; ++beam)
+      text += beam <= kSeen ? fmt::format(" {}.{:02}", 1 + beam % 6, beam) : " 8.00";
+    text += " 1 0 0 1 0 0 1 h 1\n";
+  }
+  int within = 0;
+  read(text).drive.read_scans([&](const lidar::Scan& scan) {
+    for (const float range_m : scan.ranges_m)
+      if (static_cast<double>(range_m) < scan.range_max_m) ++within;
+  });
+  EXPECT_EQ(within, kScans * kSeen);
 }
 
 TEST_F(CarmenLogTest, LeavesOutDamagedLinesAndSaysHowMany) {
@@ -120,11 +165,37 @@ TEST_F(CarmenLogTest, ReadsTheNewerLinesOfScans) {
       "ODOM 0 0 0 0 0 0 1 h 1\nODOM 0.1 0 0 0 0 0 1 h 1\n"
       "ROBOTLASER1 0 -1.5 3.0 1.0 30 0.01 0 4 1 2 3 4 2 7 8 0.2 0 0 0.1 0 0 0 0 0 0 0 1 h 1\n");
   ASSERT_EQ(log.scans, 1u);
-  log.drive.read_scans([](const lidar::Scan& scan) {
+  int calls = 0;
+  log.drive.read_scans([&](const lidar::Scan& scan) {
+    ++calls;
     EXPECT_DOUBLE_EQ(scan.first_angle_rad, -1.5);
     EXPECT_DOUBLE_EQ(scan.angle_step_rad, 1);
     EXPECT_EQ(scan.ranges_m, (std::vector<float>{1, 2, 3, 4}));
   });
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(CarmenLogTest, TakesTheMaximumThatTheNewerLinesSay) {
+  const CarmenLog log = read(
+      "ODOM 0 0 0 0 0 0 1 h 1\nODOM 0.1 0 0 0 0 0 1 h 1\n"
+      "ROBOTLASER1 0 -1.5 3.0 1.0 5 0.01 0 4 1 2 3 1e300 0 0.2 0 0 0.1 0 0 0 0 0 0 0 1 h 1\n");
+  int calls = 0;
+  log.drive.read_scans([&](const lidar::Scan& scan) {
+    ++calls;
+    EXPECT_DOUBLE_EQ(scan.range_max_m, 0.999 * 5);
+    EXPECT_TRUE(std::isfinite(scan.ranges_m.back()));
+  });
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(CarmenLogTest, TakesNoDirectionsBeyondATurn) {
+  const std::string rest = " 30 0.01 0 2 1 2 0 0.2 0 0 0.1 0 0 0 0 0 0 0 1 h 1\n";
+  std::string text = "ODOM 0 0 0 0 0 0 1 h 1\nODOM 0.1 0 0 0 0 0 1 h 1\nROBOTLASER1 0 -1.5 3.0 1.0" + rest;
+  for (const char* angles : {"-1.5 3.0 0", "-1.5 3.0 7", "-1.5 3.0 -1e300", "1e300 3.0 1"})
+    text += std::string("ROBOTLASER1 0 ") + angles + rest;
+  const CarmenLog log = read(text);
+  EXPECT_EQ(log.scans, 1u);
+  EXPECT_EQ(log.damaged, 4u);
 }
 
 }  // namespace

@@ -114,14 +114,9 @@ TEST_F(RealLogs, OfRobotsThatAreOffBecomeBetterByFortyPercent) {
   }
 }
 
-TEST_F(RealLogs, ThatAreAcceptedAreNotWorse) {
-  for (const char* name : {"csail", "infinite-corridor"})
-    if (const Judged result = judged(name); result.better) {
-      EXPECT_LT(result.ratio, 1) << name;
-    }
+TEST_F(RealLogs, OfRobotsThatAreNotShownToBeOffAreNotBetter) {
+  for (const char* name : {"csail", "infinite-corridor"}) EXPECT_FALSE(judged(name).better) << name;
 }
-
-TEST_F(RealLogs, OfALongCorridorAreNotBetter) { EXPECT_FALSE(judged("infinite-corridor").better); }
 
 }  // namespace
 }  // namespace astro::importing

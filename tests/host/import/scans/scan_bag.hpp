@@ -54,4 +54,18 @@ inline void write_scan_bag(const std::filesystem::path& path, const lidar::Synth
       .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
 }
 
+/// Messages on /scan.
+inline void write_scans(const std::filesystem::path& path, const std::vector<ros2::msg::LaserScan>& scans) {
+  using ros2::msg::LaserScan;
+  Bytes file;
+  bag::McapWriter writer([&](ByteView bytes) { append(file, bytes); }, {"ros2", "test"});
+  const auto channel = writer.add_channel(
+      writer.add_schema(LaserScan::kType, "ros2msg", ros2::ros_type<LaserScan>().definition), "/scan", "cdr",
+      {});
+  for (const LaserScan& scan : scans) writer.write(channel, 1, ros2::encode(scan));
+  writer.close();
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+}
+
 }  // namespace astro::importing
