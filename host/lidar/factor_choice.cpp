@@ -162,8 +162,10 @@ FactorChoice choose_factors(std::span<const Stretch> stretches, std::span<const 
   const FactorChoice& best =
       *std::max_element(choices.begin(), choices.end(),
                         [](const FactorChoice& a, const FactorChoice& b) { return a.gain < b.gain; });
-  return *std::find_if(choices.begin(), choices.end(),
-                       [&](const FactorChoice& choice) { return choice.gain >= best.gain - best.gain_se; });
+  const auto smallest = std::find_if(choices.begin(), choices.end(), [&](const FactorChoice& choice) {
+    return choice.gain >= best.gain - best.gain_se;
+  });
+  return smallest == choices.end() ? none : *smallest;  // no gain is a number
 }
 
 }  // namespace astro::lidar

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/calibration/motion/wheel_path.hpp"
 #include "host/lidar/pair_match.hpp"
 
 namespace astro::lidar {
@@ -34,6 +35,7 @@ class Pairs {
 
   void collect(const ScannedDrive& drive) {
     last_.reset();
+    path_.emplace(drive.wheels);
     drive.read_scans([&](const Scan& scan) { add(drive, scan); });
   }
 
@@ -42,7 +44,10 @@ class Pairs {
  private:
   void add(const ScannedDrive& drive, const Scan& scan) {
     if (driving.size() >= kPairs && turning.size() >= kPairs) return;
+    const calibration::WheelState wheels = path_->at(drive.seconds(scan));
     if (last_) {
+      // Far cheaper than all samples since the last scan, which may be those of an hour that the robot stood.
+      if (is_near(wheels)) return;
       const Pose2 moved = by_wheels(drive, *last_, scan, nothing_wrong(), loaded_);
       const double length_m = std::hypot(moved.x_m, moved.y_m), turned_rad = std::abs(moved.theta_rad);
       if (length_m < kPairApart_m && turned_rad < kPairApart_rad) return;
@@ -53,10 +58,21 @@ class Pairs {
       }
     }
     last_ = scan;
+    last_wheels_ = wheels;
+  }
+
+  /// Whether the robot is where the last scan was made, by both wheels' travel, which is at least as long as the way across.
+  bool is_near(const calibration::WheelState& wheels) const {
+    const double right_m = loaded_.c_r * (wheels.right_m - last_wheels_.right_m),
+                 left_m = loaded_.c_l * (wheels.left_m - last_wheels_.left_m);
+    return std::abs(right_m + left_m) / 2 < kPairApart_m &&
+           std::abs(right_m - left_m) / loaded_.b_m < kPairApart_rad;
   }
 
   const calibration::WheelFactors& loaded_;
+  std::optional<calibration::WheelPath> path_;
   std::optional<Scan> last_;
+  calibration::WheelState last_wheels_;
 };
 
 /// The share of the points of each pair that find a line, on average; 0 for pairs that do not match.

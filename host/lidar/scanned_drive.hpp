@@ -11,10 +11,8 @@
 /// A drive of which the wheels and the scans of a scanner on the robot were recorded.
 namespace astro::lidar {
 
-/// Passes scans on, in order of time. Their times are within kLatest_ns, so that the difference of two is a time, too.
+/// Passes scans on, in order of time.
 using ScanHandler = std::function<void(const Scan&)>;
-
-inline constexpr std::int64_t kLatest_ns = std::int64_t{1} << 62;
 
 struct ScannedDrive {
   std::string name;
@@ -26,7 +24,12 @@ struct ScannedDrive {
   /// Whether the times of wheels and scans are measured. If not, they only say which samples and scans follow each other.
   bool times_measured = true;
 
-  double seconds(const Scan& scan) const { return 1e-9 * static_cast<double>(scan.time_ns - origin_ns); }
+  /// In whole seconds and the rest, because the difference of two odd times may be no std::int64_t.
+  double seconds(const Scan& scan) const {
+    constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    return static_cast<double>(scan.time_ns / kSecond_ns - origin_ns / kSecond_ns) +
+           1e-9 * static_cast<double>(scan.time_ns % kSecond_ns - origin_ns % kSecond_ns);
+  }
 };
 
 }  // namespace astro::lidar

@@ -138,12 +138,13 @@ IteratedFit iterated_fit(std::span<const Stretch> stretches, const Unknowns& sta
                          const calibration::WheelFactors& loaded) {
   constexpr int kMostTimes = 6;
   IteratedFit all;
-  all.at = start;
+  all.fit.unknowns = start;
   for (int time = 0; time < kMostTimes; ++time) {
+    // Only here, so that it is where the stretches were linearised even if the last pass changes the unknowns.
+    all.at = all.fit.unknowns;
     all.stretches = linearised(stretches, all.at, loaded);
     all.fit = fit(all.stretches, all.at, start, free);
     if ((all.fit.unknowns - all.at).cwiseAbs().maxCoeff() < 1e-5) break;
-    all.at = all.fit.unknowns;
   }
   return all;
 }

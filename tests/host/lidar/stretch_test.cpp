@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/host/lidar/synthetic_room.hpp"
 
 namespace astro::lidar {
@@ -58,6 +60,17 @@ TEST(Stretch, UnknownsAreScaleTurnsAndBend) {
   EXPECT_NEAR((right_m - left_m) / factors.b_m, 0.02, 1e-12);
   const double rim_m = 0.3 / 2;
   EXPECT_NEAR((right_m * rim_m + left_m * rim_m) / factors.b_m, 0.97, 1e-12);
+}
+
+TEST(ScannedDrive, HasSecondsOfTimesThatLieFarApart) {
+  ScannedDrive drive;
+  Scan scan;
+  drive.origin_ns = std::numeric_limits<std::int64_t>::max();
+  scan.time_ns = std::numeric_limits<std::int64_t>::min();
+  EXPECT_NEAR(drive.seconds(scan), -18'446'744'073.7, 0.1);
+  drive.origin_ns = 1'790'000'000'900'000'000;
+  scan.time_ns = 1'790'000'001'100'000'001;
+  EXPECT_NEAR(drive.seconds(scan), 0.200000001, 1e-12);
 }
 
 }  // namespace

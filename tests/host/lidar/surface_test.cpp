@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "tests/host/lidar/synthetic_room.hpp"
@@ -35,6 +36,15 @@ TEST(Surface, OfAWallHasNormalsAcrossIt) {
     EXPECT_TRUE(point.on_line);
     EXPECT_NEAR(std::abs(point.normal.x_m), 1, 1e-5);
   }
+}
+
+TEST(Surface, HasOnlyPointsThatAreSomewhere) {
+  Scan scan;
+  scan.angle_step_rad = 0.01;
+  scan.beam_interval_s = 1e-3;
+  scan.range_max_m = 10;
+  scan.ranges_m.assign(100, 2);
+  EXPECT_EQ(surface_of(scan, {std::numeric_limits<double>::infinity(), 0, 0}).size(), 1u);  // the first beam
 }
 
 TEST(Surface, HasNoNormalWhereTheWallBends) {
