@@ -52,14 +52,20 @@ MountingFound require_mounting(std::span<const ScannedDrive> drives, const calib
   const MountingFound found = find_mounting(drives, loaded, mirrored);
   if (!looks_mirrored(found)) return found;
   const auto percent = [](double share) { return fmt::format("{:.0f}", 100 * share); };
+  const std::vector<std::string> values{fmt::format("{}", found.turning), percent(found.overlap),
+                                        percent(found.mirrored_overlap)};
+  if (mirrored)
+    throw Error(fmt::format("as mirror images the scans turn the robot the other way than the wheels: in {} "
+                            "turns {} % of the points match, and {} % if each scan is taken as it is",
+                            values[0], values[1], values[2]),
+                ScanProblem::not_mirrored, values);
   throw Error(
       fmt::format("the scans turn the robot the other way than the wheels: in {} turns {} % of the "
                   "points match, and {} % if each scan is taken for a mirror image, as of a scanner whose "
                   "beams run the other way round or that hangs upside down, or if left and right wheel "
                   "are exchanged",
-                  found.turning, percent(found.overlap), percent(found.mirrored_overlap)),
-      ScanProblem::mirrored,
-      {fmt::format("{}", found.turning), percent(found.overlap), percent(found.mirrored_overlap)});
+                  values[0], values[1], values[2]),
+      ScanProblem::mirrored, values);
 }
 
 /// Whether the scanner's place or clock differs so much from what the scans were matched with that they should be matched anew.

@@ -17,7 +17,8 @@ namespace astro::lidar {
 ///   do_not_match    how many pairs of scans match, and of how many
 ///   mirrored        how many turns were looked at, and how many percent of the points match in them, as the scans say and as a
 ///                   mirror image
-enum class ScanProblem { no_common_time, do_not_match, mirrored };
+///   not_mirrored    the same where a person says that the scans are mirrored: as mirror images, and as they are
+enum class ScanProblem { no_common_time, do_not_match, mirrored, not_mirrored };
 
 /// What the drives do not show, each a clause that names the motion that is missing; or what is odd. Values as in the clause.
 enum class ScanRemark {

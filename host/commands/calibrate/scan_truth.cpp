@@ -11,6 +11,8 @@
 
 #include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/scan_result.hpp"
+#include "host/commands/shared/film_truth.hpp"
+#include "host/commands/shared/option_words.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/program.hpp"
@@ -29,7 +31,10 @@ constexpr std::string_view kPrefix = "scan:";
 constexpr Advice kScanAdvice[] = {
     {lidar::ScanProblem::mirrored,
      "; give --truth-mirrored yes if it is the scans, --swap-wheels if it is the wheels"},
+    {lidar::ScanProblem::not_mirrored,
+     "; leave out --truth-mirrored yes, or give --swap-wheels if left and right are exchanged as well"},
     {importing::ScanFileProblem::topic_unclear, ": name one with --scan-topic"},
+    {importing::ScanFileProblem::no_topics, ": leave out --scan-topic"},
     {importing::ScanFileProblem::wheels_of_other_file, ": give the same file as --wheels"}};
 
 std::optional<fs::path> scans_named(const fs::path& word) {
@@ -42,11 +47,8 @@ std::vector<importing::DriveFiles> files_of(const ImportOptions& options) {
   if (options.wheels.size() != options.truth.size())
     throw console::WrongUsage(fmt::format("there are {} --wheels and {} --truth: each drive needs both",
                                           options.wheels.size(), options.truth.size()));
-  if (!options.up.empty() || !options.unit.empty() || !options.body.empty() ||
-      !options.truth_columns.empty() || !options.frames.empty() || options.session_per_folder)
-    throw console::WrongUsage(
-        "--up, --truth-unit, --body, --truth-columns, --truth-frames and "
-        "--session-per-folder do not apply to scans");
+  if (options.session_per_folder) throw console::WrongUsage("--session-per-folder does not apply to scans");
+  require_film_for(options.film_figures, false);
   std::vector<importing::DriveFiles> files;
   for (std::size_t i = 0; i < options.truth.size(); ++i) {
     const auto scans = scans_named(options.truth[i]);
@@ -56,6 +58,13 @@ std::vector<importing::DriveFiles> files_of(const ImportOptions& options) {
     files.push_back({options.wheels[i], *scans});
   }
   return files;
+}
+
+void refuse_unused(const ImportOptions& options, const std::vector<importing::DriveFiles>& files) {
+  importing::StatedDrives drives = options;
+  drives.truth.clear();
+  for (const importing::DriveFiles& one : files) drives.truth.push_back(one.truth);
+  importing::refuse_choices_unused_with_scans(drives);
 }
 
 }  // namespace
@@ -74,7 +83,10 @@ void calibrate_by_scans(const ImportOptions& options, const CalibrationOutput& o
                         const std::string& scan_topic) {
   advise(kScanAdvice);
   const std::vector<importing::DriveFiles> files = files_of(options);
-  const importing::ScannedDrives drives = importing::scanned_drives(files, choices_of(options), scan_topic);
+  const importing::ScannedDrives drives = stated([&] {
+    refuse_unused(options, files);
+    return importing::scanned_drives(files, importing::choices_of(options), scan_topic);
+  });
   for (const Remark& remark : drives.remarks) console::say(in_words(remark));
   const lidar::ScanCalibration found =
       lidar::calibrate_by_scans(drives.drives, drives.loaded, options.mirrored == "yes");

@@ -9,6 +9,7 @@
 
 #include "host/commands/base/advice.hpp"
 #include "host/commands/shared/film_truth.hpp"
+#include "host/commands/shared/option_words.hpp"
 #include "host/commands/shared/unused_choices.hpp"
 #include "host/console/console.hpp"
 #include "host/console/options.hpp"
@@ -37,30 +38,6 @@ console::Check is_axis() {
 
 console::Check within(const importing::Limits& limits, const char* unit) {
   return console::between(limits.least, limits.most, unit);
-}
-
-/// What is wrong with the options themselves; "" for any other error.
-std::string in_words_of_options(const Error& error) {
-  using enum importing::StatementProblem;
-  if (error.kind() == joints_not_paired)
-    return "--joints takes two names, LEFT,RIGHT, or as many for each side: LEFT+LEFT,RIGHT+RIGHT";
-  if (error.kind() == frames_not_two) return "--truth-frames takes two names, PARENT,CHILD";
-  if (error.kind() == not_paired)
-    return fmt::format("there are {} --wheels and {} --truth: each drive needs both", error.values().at(0),
-                       error.values().at(1));
-  return "";
-}
-
-/// What of the statements is wrong, in words of the options.
-template <typename Statements>
-auto stated(const Statements& statements) try {
-  return statements();
-} catch (const importing::UnusedChoice& unused) {
-  throw wrong_usage(unused);
-} catch (const Error& error) {
-  const std::string words = in_words_of_options(error);
-  if (words.empty()) throw;
-  throw console::WrongUsage(words);
 }
 
 constexpr Advice kImportAdvice[] = {

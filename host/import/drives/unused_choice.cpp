@@ -104,4 +104,18 @@ void refuse_unused_choices(const StatedDrives& drives) {
       throw UnusedChoice(statement.choice, statement.otherwise);
 }
 
+void refuse_choices_unused_with_scans(const StatedDrives& drives) {
+  using enum Choice;
+  const std::vector<Choice> of_trackers{truth_columns, truth_topic,    truth_frames, body, up,
+                                        truth_unit,    drives_backward},
+      of_logs{truth_mirrored, robot, controller, wheelbase, swap_wheels, reverse_wheels};
+  const bool logs = !any_bag(drives.truth);
+  for (const Choice choice : stated_choices(drives)) {
+    if (std::ranges::count(of_trackers, choice) > 0) throw UnusedChoice(choice, "the ground truth is scans");
+    if (logs && std::ranges::count(of_logs, choice) == 0)
+      throw UnusedChoice(choice, "a log of CARMEN has odometry instead of wheels");
+  }
+  refuse_unused_choices(drives);
+}
+
 }  // namespace astro::importing

@@ -58,4 +58,8 @@ std::vector<Choice> stated_choices(const StatedDrives& drives);
 /// without bags. A missing file counts as any kind, because its reader gives a better error.
 void refuse_unused_choices(const StatedDrives& drives);
 
+/// The same if each drive's truth is a file with scans: what is about trackers applies to none, and to a log of CARMEN little more
+/// than the wheelbase.
+void refuse_choices_unused_with_scans(const StatedDrives& drives);
+
 }  // namespace astro::importing

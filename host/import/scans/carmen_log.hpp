@@ -31,6 +31,7 @@ enum class ScanFileProblem {
   no_scans,
   not_scans,
   topic_unclear,
+  no_topics,
   wheels_of_other_file,
   all_unreadable
 };

@@ -114,6 +114,8 @@ ScannedDrives scanned_drives(std::span<const DriveFiles> files, const ImportChoi
     throw Error(
         "bags and logs of CARMEN cannot be calibrated together, because the wheels of the logs are not known",
         ScanFileProblem::not_scans, {files.front().truth.string()});
+  if (bags == 0 && !scan_topic.empty())
+    throw Error("logs of CARMEN have no topics", ScanFileProblem::no_topics, {files.front().truth.string()});
   ScannedDrives all;
   bags == 0 ? read_logs(files, choices, all) : read_runs(files, choices, scan_topic, all);
   return all;

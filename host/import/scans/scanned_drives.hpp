@@ -23,9 +23,9 @@ struct ScannedDrives {
 /// same file. Of a CARMEN log only the wheelbase has to be known, because it has odometry instead of wheels.
 /// scan_topic: of bags; "" for the only one.
 ///
-/// Throws astro::Error naming the file if scans are in neither kind of file, or a log of CARMEN is to give scans for other
-/// wheels; if the drives are of robots with different wheels or factors; and what import_wheels, read_carmen_log and scans_in_bag
-/// throw.
+/// Throws astro::Error if a topic is named for logs of CARMEN; naming the file if scans are in neither kind of file, or such a log
+/// is to give scans for other wheels; if the drives are of robots with different wheels or factors; and what import_wheels,
+/// read_carmen_log and scans_in_bag throw.
 ScannedDrives scanned_drives(std::span<const DriveFiles> files, const ImportChoices& choices,
                              const std::string& scan_topic = {});
 

@@ -89,9 +89,25 @@ TEST_F(Scans, InABagAreFoundByThemselves) {
 
 TEST_F(Scans, TakeNoOptionsThatWouldHaveNoEffect) {
   std::ofstream(at("x.log")) << "ODOM 0 0 0 0 0 0 1 h 1\n";
-  for (const std::vector<std::string>& more :
-       {std::vector<std::string>{"--up", "z"}, {"--body", "A"}, {"--sigma-xy", "0.001"}})
-    EXPECT_EQ(calibrated(at("x.log"), more).code, kScansWrongUsage) << more.front();
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--up", "z"},
+                                               {"--body", "A"},
+                                               {"--sigma-xy", "0.001"},
+                                               {"--truth-topic", "/pose"},
+                                               {"--drives-backward"},
+                                               {"--wheel-diameter", "0.084"},
+                                               {"--joints", "l,r"},
+                                               {"--tag-side", "0.1"}}) {
+    const Outcome outcome = calibrated(at("x.log"), more);
+    EXPECT_EQ(outcome.code, kScansWrongUsage) << more.front();
+    EXPECT_THAT(outcome.err, HasSubstr(more.front()));
+  }
+  EXPECT_THAT(calibrated(at("x.log"), {"--scan-topic", "/scan"}).err, HasSubstr("leave out --scan-topic"));
+}
+
+TEST_F(Scans, ThatAreNotMirroredAreRefusedIfSomebodySaysThatTheyAre) {
+  const Outcome outcome = calibrated(log_of(driven(kWrong)), {"--truth-mirrored", "yes"});
+  EXPECT_EQ(outcome.code, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("leave out --truth-mirrored yes"));
 }
 
 TEST_F(Scans, InAFileThatHasNoneAreMissed) {
