@@ -168,7 +168,7 @@ constexpr Advice kFlashAdvice[] = {
     {Uf2Problem::unreadable, ": build one with './dev firmware rp2040'"},
     {Uf2Problem::too_large, ": build one with './dev firmware rp2040'"},
     {Uf2Problem::of_other_board, ": build one with './dev firmware rp2040'"},
-    {Uf2Problem::damaged, " with './dev firmware rp2040'"},
+    {Uf2Problem::damaged, "; './dev firmware rp2040' builds one"},
 };
 
 }  // namespace

@@ -37,6 +37,9 @@ constexpr std::array<std::string_view, kFaultNames.size()> kFaultAdvice{
     "the wheels still turned a second after their set point became zero: look for a slope or a load that the "
     "motors do "
     "not hold; 'astrolabe check-wiring' finds a wrong polarity or gear ratio, 'astrolabe tune' weak gains",
+    "the gyro saw a turn that the wheels did not make, and the parameter gyro_slip_stops is 1: somebody "
+    "pushed "
+    "the robot, it slipped, or gyro_axis names the wrong axis or sign",
 };
 
 void to_stdout(const std::string& text) {

@@ -21,9 +21,13 @@ function beforeACommit({ pico, host }, erases) {
     pico.chip.onFlashOperation = null;
     return found;
   };
+  let shifted = false;
   for (let commits = 0; commits < 60; ++commits) {
-    // If a sector takes an even number of records the old set would begin each one.
-    if (commit(kOld).wiped && erases) commit(kOld);
+    // If a sector takes an even number of records the old set would begin each one. With an odd number they take turns.
+    if (commit(kOld).wiped && erases && !shifted) {
+      shifted = true;
+      commit(kOld);
+    }
     const found = commit(kNew);
     if (found.wiped === erases) return found;
   }

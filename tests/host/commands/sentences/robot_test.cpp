@@ -31,7 +31,7 @@ TEST_F(OtherSentences, TellWhatIsWrongWithAnImage) {
       {"no file for a Pico", "flash none.uf2 --button",
        "cannot read 'none.uf2': build one with './dev firmware rp2040'"},
       {"cut off, for a Pico", "flash empty.uf2 --button",
-       "'empty.uf2' ends within a block of UF2: build or copy it again with './dev firmware rp2040'"},
+       "'empty.uf2' ends within a block of UF2: build or copy it again; './dev firmware rp2040' builds one"},
   });
 }
 
