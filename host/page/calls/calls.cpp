@@ -68,7 +68,7 @@ json answer(const std::string& call, const json& question, const std::filesystem
   return told;
 }
 
-std::string as_text(const json& answer) {
+std::string json_text(const json& answer) {
   return answer.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

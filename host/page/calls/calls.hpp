@@ -21,6 +21,6 @@ nlohmann::json answer(const std::string& call, const nlohmann::json& question,
 
 /// An answer or an event as text. Files may hold bytes that are no UTF-8, and some stand in the sentences about them: each such
 /// byte becomes U+FFFD.
-std::string as_text(const nlohmann::json& answer);
+std::string json_text(const nlohmann::json& answer);
 
 }  // namespace astro::page

@@ -14,8 +14,8 @@ constexpr const char* kFolder = "/files-of-the-page";
 
 std::string answer(const std::string& call, const std::string& question, emscripten::val emit) {
   const auto parsed = nlohmann::json::parse(question, nullptr, false);
-  const auto told = [&emit](const nlohmann::json& event) { emit(astro::page::as_text(event)); };
-  return astro::page::as_text(astro::page::answer(call, parsed, kFolder, told));
+  const auto told = [&emit](const nlohmann::json& event) { emit(astro::page::json_text(event)); };
+  return astro::page::json_text(astro::page::answer(call, parsed, kFolder, told));
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void add_about(console::Command app, const std::string& version) {
     const console::Command manual =
         app.add_subcommand("manual", "write a man page for each command into a folder");
     manual.add_option("folder", options->folder, "where to write astrolabe.1 and the others").required();
-    manual.footer("Example:\n  astrolabe manual /tmp/man && man /tmp/man/astrolabe-umbmark.1");
+    manual.footer("Examples:\n  astrolabe manual /tmp/man && man /tmp/man/astrolabe-umbmark.1");
     manual.callback([options, app, version] {
       for (const console::ManualPage& page : console::manual_of(app, version)) {
         PartFile file(options->folder / (page.name + ".1"));

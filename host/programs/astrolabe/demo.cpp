@@ -77,7 +77,7 @@ void add_demo(console::Command app, const std::function<int(const std::vector<st
   command.add_option("--out", options->folder, "folder for drives and report").capture_default_str();
   command.add_option("--seed", options->seed, "of the noise: other seeds, other drives")
       .capture_default_str();
-  command.footer("Example:\n  astrolabe demo --out /tmp/my-demo");
+  command.footer("Examples:\n  astrolabe demo --out /tmp/my-demo");
   command.callback([options, run] { demonstrate(*options, run); });
 }
 

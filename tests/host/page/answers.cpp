@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
   }
   for (std::string line; std::getline(std::cin, line);) {
     const auto asked = nlohmann::json::parse(line);
-    std::cout << astro::page::as_text(astro::page::answer(asked.at("call"), asked.at("question"), argv[1],
-                                                          [](const nlohmann::json&) {}))
+    std::cout << astro::page::json_text(astro::page::answer(asked.at("call"), asked.at("question"), argv[1],
+                                                            [](const nlohmann::json&) {}))
               << std::endl;
   }
 }

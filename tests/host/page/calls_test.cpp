@@ -107,7 +107,7 @@ TEST(Calls, AFolderThatCannotBeWrittenIsToldLikeAnyOtherRefusal) {
 }
 
 TEST(Calls, AnswersAreTextWhateverBytesAFileHolds) {
-  const json parsed = json::parse(as_text({{"sentence", "'Weg[\xb0]' is no number"}}));
+  const json parsed = json::parse(json_text({{"sentence", "'Weg[\xb0]' is no number"}}));
   EXPECT_EQ(parsed["sentence"], "'Weg[\xEF\xBF\xBD]' is no number");
 }
 
