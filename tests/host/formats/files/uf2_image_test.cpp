@@ -93,10 +93,12 @@ TEST_F(Uf2File, OfAnotherChipOrOutsideTheProgramIsForAnotherBoard) {
                                                                     {12, 0x2000'0000},
                                                                     {12, 0x101F'0000},
                                                                     {12, 0x0FFF'FF00},
-                                                                    {12, 0x1000'0080}})
-    EXPECT_THAT([&] { read_uf2_image(holding(with(kUf2Block + at, word))); },
+                                                                    {12, 0x1000'0080}}) {
+    const auto changed = with(kUf2Block + at, word);
+    EXPECT_THAT([&] { read_uf2_image(holding(changed)); },
                 ThrowsTelling(Uf2Problem::of_other_board, path().string()))
         << at << ' ' << word;
+  }
 }
 
 TEST_F(Uf2File, ThatTheBootRomWouldNotStartIsDamaged) {
