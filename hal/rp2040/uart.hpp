@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "hal/rp2040/arithmetic/ring.hpp"
+#include "common/base/byte_ring.hpp"
 
 namespace astro::rp2040 {
 
@@ -29,8 +29,8 @@ class Uart {
   void receive();
   void send();
 
-  Ring<1024> received_;
-  Ring<1024> to_send_;  // 10 ms on the line; a longer queue would delay answers
+  ByteRing<1024> received_;
+  ByteRing<1024> to_send_;  // 10 ms on the line; a longer queue would delay answers
 };
 
 }  // namespace astro::rp2040

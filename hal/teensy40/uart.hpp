@@ -1,10 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "hal/teensy40/arithmetic/ring.hpp"
+#include "common/base/byte_ring.hpp"
 #include "hal/teensy40/arithmetic/uart_divider.hpp"
 
 namespace astro::teensy40 {
@@ -34,8 +35,9 @@ class Uart {
   void receive(std::uint32_t status);
   void send();
 
-  Ring<1024> received_;
-  Ring<1024> to_send_;  // 10 ms on the line; a longer queue would delay answers
+  static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "the queues need no lock");
+  ByteRing<1024> received_;
+  ByteRing<1024> to_send_;  // 10 ms on the line; a longer queue would delay answers
 };
 
 }  // namespace astro::teensy40

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "hal/teensy40/arithmetic/ring.hpp"
+#include "common/base/byte_ring.hpp"
 #include "hal/teensy40/usb/control.hpp"
 #include "hal/teensy40/usb/controller.hpp"
 
@@ -50,7 +50,7 @@ class UsbSerial {
   void listen();
 
   usb_device::Control control_;
-  Ring<1024> to_send_;
+  ByteRing<1024> to_send_;
   std::array<std::uint8_t, 512> sending_{}, received_{};
   std::array<std::uint8_t, 8> control_data_{};
   volatile bool busy_ = false;

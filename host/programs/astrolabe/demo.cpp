@@ -11,6 +11,7 @@
 #include "host/base/interrupted.hpp"
 #include "host/base/system_error.hpp"
 #include "host/console/interrupt.hpp"
+#include "host/console/program.hpp"
 
 namespace astro::commands {
 namespace {
@@ -53,6 +54,15 @@ class SimulatedRobot {
   std::string said_;
 };
 
+/// False if the command says no to its question, which is then the answer of the demonstration, too.
+bool carry_out(const std::function<int(const std::vector<std::string>&)>& run,
+               const std::vector<std::string>& words) {
+  const int code = run(words);
+  if (code != 0 && code != console::kAnswerIsNo)
+    throw Error("the demonstration ends here, because 'astrolabe " + words.front() + "' was refused");
+  return code == 0;
+}
+
 void demonstrate(const DemoOptions& options, const std::function<int(const std::vector<std::string>&)>& run) {
   const fs::path folder = fs::absolute(options.folder);  // not to be taken for an option
   if (fs::exists(folder))
@@ -60,11 +70,11 @@ void demonstrate(const DemoOptions& options, const std::function<int(const std::
   fs::create_directories(folder);
   const fs::path port = folder / "robot.pty", experiment = folder / "experiment";
   const SimulatedRobot robot(port, options.seed);
-  if (run({"umbmark", "--port", port.string(), "--truth", "sim", "--runs", "5", "--side", "3", "--out",
-           experiment.string(), "--yes"}) != 0)
+  if (!carry_out(run, {"umbmark", "--port", port.string(), "--truth", "sim", "--runs", "5", "--side", "3",
+                       "--out", experiment.string(), "--yes"}))
     return;
   fmt::print("\nHow the factors were found, from the drives before:\n");
-  if (run({"calibrate", "runs", (experiment / "before").string()}) != 0) return;
+  if (!carry_out(run, {"calibrate", "runs", (experiment / "before").string()})) return;
   fmt::print("\nThe report with both: {}\n", (experiment / "report.html").string());
 }
 

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <span>
 
-namespace astro::teensy40 {
+namespace astro {
 
 /// A queue of bytes between one writer and one reader, which may interrupt each other. Bytes that do not fit
 /// are not taken. kSize is a power of two.
 template <std::size_t kSize>
-class Ring {
+class ByteRing {
   static_assert(kSize != 0 && (kSize & (kSize - 1)) == 0 && kSize <= 1U << 16);
 
  public:
@@ -42,11 +42,11 @@ class Ring {
 
  private:
   using Count = std::atomic<std::uint32_t>;  // running totals; kSize divides 2^32
-  static_assert(Count::is_always_lock_free);
+  static_assert(sizeof(Count) == 4, "a load or a store is one instruction; there is no other access");
   static std::uint32_t load(const Count& count) { return count.load(std::memory_order_acquire); }
 
   std::array<std::uint8_t, kSize> bytes_{};
   Count written_{0}, read_{0};
 };
 
-}  // namespace astro::teensy40
+}  // namespace astro

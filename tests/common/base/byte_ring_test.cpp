@@ -1,4 +1,4 @@
-#include "hal/teensy40/arithmetic/ring.hpp"
+#include "common/base/byte_ring.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <thread>
 #include <vector>
 
-namespace astro::teensy40 {
+namespace astro {
 namespace {
 
-TEST(Ring, TakesWhatFitsAndNoMore) {
-  Ring<8> ring;
+TEST(ByteRing, TakesWhatFitsAndNoMore) {
+  ByteRing<8> ring;
   const std::vector<std::uint8_t> bytes{1, 2, 3, 4, 5, 6, 7, 8, 9};
   EXPECT_EQ(ring.room(), 8U);
   EXPECT_EQ(ring.push(bytes), 8U);
@@ -24,10 +24,10 @@ TEST(Ring, TakesWhatFitsAndNoMore) {
   EXPECT_EQ(ring.size(), 0U);
 }
 
-TEST(Ring, BehavesLikeAnUnboundedQueueThatRefusesWhatIsTooMuch) {
+TEST(ByteRing, BehavesLikeAnUnboundedQueueThatRefusesWhatIsTooMuch) {
   constexpr unsigned kSeed = 8;
   std::mt19937 random(kSeed);
-  Ring<32> ring;
+  ByteRing<32> ring;
   std::deque<std::uint8_t> model;
   std::uint8_t next = 0;
   for (int step = 0; step < 100'000; ++step) {
@@ -46,9 +46,9 @@ TEST(Ring, BehavesLikeAnUnboundedQueueThatRefusesWhatIsTooMuch) {
   }
 }
 
-TEST(Ring, LosesAndRepeatsNothingBetweenAWriterAndAReaderAtOnce) {
+TEST(ByteRing, LosesAndRepeatsNothingBetweenAWriterAndAReaderAtOnce) {
   constexpr std::uint32_t kBytes = 200'000;
-  Ring<64> ring;
+  ByteRing<64> ring;
   std::thread writer([&] {
     for (std::uint32_t sent = 0; sent < kBytes;) {
       const auto byte = static_cast<std::uint8_t>(sent * 7);
@@ -72,4 +72,4 @@ TEST(Ring, LosesAndRepeatsNothingBetweenAWriterAndAReaderAtOnce) {
 }
 
 }  // namespace
-}  // namespace astro::teensy40
+}  // namespace astro
