@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/base/error.hpp"
+#include "host/base/parallel.hpp"
 #include "host/base/text/natural_order.hpp"
 #include "host/recording/recording_problem.hpp"
 
@@ -43,10 +44,17 @@ std::vector<fs::path> list_runs(const fs::path& folder) {
   return paths;
 }
 
-std::vector<Run> read_runs(const fs::path& folder, Damage damage) {
-  std::vector<Run> runs;
-  for (const fs::path& path : list_runs(folder)) runs.push_back(read_run(path, damage));
+std::vector<Run> read_runs(std::span<const fs::path> files, Damage damage) {
+  std::vector<Run> runs(files.size());
+  in_parallel(static_cast<int>(files.size()), [&](int i) {
+    const auto file = static_cast<std::size_t>(i);
+    runs[file] = read_run(files[file], damage);
+  });
   return runs;
+}
+
+std::vector<Run> read_runs(const fs::path& folder, Damage damage) {
+  return read_runs(list_runs(folder), damage);
 }
 
 }  // namespace astro::recording

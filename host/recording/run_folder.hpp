@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "host/recording/run.hpp"
@@ -14,7 +15,10 @@ namespace astro::recording {
 /// recording.
 std::vector<std::filesystem::path> list_runs(const std::filesystem::path& folder);
 
-/// The runs themselves, in that order. Throws astro::Error naming a file that is no run.
+/// The runs in these files, in their order; several are read at a time. Throws astro::Error naming the first file that is no run.
+std::vector<Run> read_runs(std::span<const std::filesystem::path> files, Damage damage = Damage::refused);
+
+/// The same of a whole folder.
 std::vector<Run> read_runs(const std::filesystem::path& folder, Damage damage = Damage::refused);
 
 }  // namespace astro::recording

@@ -45,6 +45,12 @@ void RunWriter::describe(std::uint64_t time_ns) {
   described_ = true;
 }
 
+/// Transforms and joints are what a screen shows, and follow from the other messages, so that 50 a second are enough.
+bool RunWriter::viewers_are_due(std::int64_t time_us) const {
+  constexpr std::int64_t kPeriod_us = 20'000;
+  return !shown_us_ || time_us < *shown_us_ || time_us - *shown_us_ >= kPeriod_us;
+}
+
 void RunWriter::add(const OdometrySample& sample) {
   const std::uint64_t time_ns = static_cast<std::uint64_t>(log_time_.ns(sample.time_us));
   keep_first(record_.first_odometry_heading_rad, sample.theta_rad);
@@ -53,6 +59,8 @@ void RunWriter::add(const OdometrySample& sample) {
   mcap_.write(odometry_, time_ns, recording::encode_odometry(sample));
   mcap_.write(counts_, time_ns,
               recording::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+  if (!viewers_are_due(sample.time_us)) return;
+  shown_us_ = sample.time_us;
   mcap_.write(transforms_, time_ns, robot_.transforms());
   if (robot_.knows_sizes()) mcap_.write(joints_, time_ns, robot_.joints());
 }

@@ -36,6 +36,7 @@ class RunWriter {
 
  private:
   void describe(std::uint64_t time_ns);
+  bool viewers_are_due(std::int64_t time_us) const;
 
   PartFile file_;
   bag::McapWriter mcap_;
@@ -43,6 +44,7 @@ class RunWriter {
   LogTime log_time_;
   RobotMessages robot_;
   bool described_ = false;
+  std::optional<std::int64_t> shown_us_;  // the last sample of which viewers have transforms and joints
   std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0;
   std::optional<std::uint16_t> scans_;  // from the first scan on
 };

@@ -56,9 +56,15 @@ double speed_against_real_time(const std::shared_ptr<simulation::VirtualRobot>& 
   return static_cast<double>(robot->now_us() - from_us) * 1e-6 / (cpu_s() - start_s);
 }
 
-double experiment_s(double& virtual_s, double& improvement) {
+struct Experiment {
+  double wall_s = 0, cpu_s = 0, virtual_s = 0, improvement = 0;
+};
+
+/// A person waits for the wall's time; reading and judging use all processors.
+Experiment run_experiment() {
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("astrolabe-bench-{}", getpid());
   const double start_s = cpu_s();
+  const auto start = std::chrono::steady_clock::now();
   auto robot = std::make_shared<simulation::VirtualRobot>(reference_robot(), simulation::MocapConfig{});
   robot::Client client(std::make_unique<simulation::InProcessTransport>(robot));
   client.connect();
@@ -66,11 +72,13 @@ double experiment_s(double& virtual_s, double& improvement) {
   experiment::Plan plan;
   plan.truth = "sim";
   const experiment::Results results = experiment::run_experiment(client, truth, plan, folder, {});
-  const double elapsed_s = (cpu_s() - start_s);
-  virtual_s = static_cast<double>(robot->board().world_us()) * 1e-6;
-  improvement = results.improvement();
+  Experiment done;
+  done.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  done.cpu_s = cpu_s() - start_s;
+  done.virtual_s = static_cast<double>(robot->board().world_us()) * 1e-6;
+  done.improvement = results.improvement();
   std::filesystem::remove_all(folder);
-  return elapsed_s;
+  return done;
 }
 
 }  // namespace
@@ -92,11 +100,13 @@ int main() {
       "(bar 300)\n",
       in_room);
 
-  double virtual_s = 0, improvement = 0, fastest_s = 1e9;
-  for (int i = 0; i < 3; ++i) fastest_s = std::min(fastest_s, experiment_s(virtual_s, improvement));
+  Experiment fastest{.wall_s = 1e9};
+  for (int i = 0; i < 5; ++i)
+    if (const Experiment one = run_experiment(); one.wall_s < fastest.wall_s) fastest = one;
   fmt::print(
-      "whole experiment, 5+5 squares, upload, 5+5 squares, {:.0f} s virtual: {:.2f} s (bar 2 s), "
-      "E_max_syst {:.1f} times smaller\n",
-      virtual_s, fastest_s, improvement);
-  return best >= 3000 && in_room >= 300 && fastest_s <= 2 ? 0 : 1;
+      "whole experiment, 5+5 squares, upload, 5+5 squares, {:.0f} s virtual: {:.2f} s (bar 0.9 s), {:.2f} s "
+      "of "
+      "processors, E_max_syst {:.1f} times smaller\n",
+      fastest.virtual_s, fastest.wall_s, fastest.cpu_s, fastest.improvement);
+  return best >= 3000 && in_room >= 300 && fastest.wall_s <= 0.9 ? 0 : 1;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/base/error.hpp"
+#include "host/base/parallel.hpp"
 #include "host/calibration/judgement/held_out_factors.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/judgement/student_t.hpp"
@@ -132,22 +133,27 @@ bool may_be_worse_elsewhere(const MlEstimate& all, const FactorVector& change) {
 /// Holds out one group of runs after the other.
 class HoldOut {
  public:
-  /// `prepared` must outlive it.
-  HoldOut(const PreparedRuns& prepared, const WheelFactors& in_use, const MlEstimate& all,
+  /// `drives` must outlive it.
+  HoldOut(const FittedDrives& drives, const WheelFactors& in_use, const MlEstimate& all,
           const MlOptions& options)
-      : prepared_(prepared),
+      : prepared_(drives.prepared),
         in_use_(in_use),
         options_(options),
         widening_(all.widening),
-        fit_(MlFit::of(prepared, in_use, options)),
-        fit_in_use_(MlFit::of(prepared, in_use, options, {.factors = true}, fit_.unknowns())),
+        fit_(MlFit::of(prepared_, in_use, options, {}, drives.unknowns)),
+        fit_in_use_(MlFit::of(prepared_, in_use, options, {.factors = true}, fit_.unknowns())),
         whole_(without(fit_, {})),
-        judged_(prepared.runs.size()) {}
+        judged_(prepared_.runs.size()) {}
 
   /// From the factors in use to those of all runs.
   FactorVector change() const { return fit_.unknowns().front().head<kFactors>() - vector_of(in_use_); }
 
-  void hold_out(std::span<const std::size_t> members, CrossValidation& out);
+  /// Of a group that could not be judged: why, and the gains to expect of its members. Nothing of one that was.
+  struct NotJudged {
+    std::optional<Remark> why;
+    double claimed = 0;
+  };
+  NotJudged hold_out(std::span<const std::size_t> members);
   /// Those that could be judged, in the order of the runs.
   std::vector<HeldOutRun> judged() const;
 
@@ -163,18 +169,18 @@ class HoldOut {
   std::vector<std::optional<HeldOutRun>> judged_;
 };
 
-void HoldOut::hold_out(std::span<const std::size_t> members, CrossValidation& out) {
+HoldOut::NotJudged HoldOut::hold_out(std::span<const std::size_t> members) {
   const HeldOutFactors without_it = held_out_factors(whole_, without(fit_, members), change());
   if (without_it.not_judged > widening_ * chi_square_95(without_it.undetermined)) {
-    out.not_judged.push_back(CrossValidation::known_by_these_alone(names_of(prepared_, members)));
-    out.claimed_elsewhere += (without_it.judged + without_it.not_judged) / widening_;
-    return;
+    return {CrossValidation::known_by_these_alone(names_of(prepared_, members)),
+            (without_it.judged + without_it.not_judged) / widening_};
   }
   try {
     judge({{members.begin(), members.end()}, without_it.undetermined == 0}, without_it);
   } catch (const Error& error) {
-    out.not_judged.push_back(CrossValidation::without(names_of(prepared_, members), error));
+    return {CrossValidation::without(names_of(prepared_, members), error)};
   }
+  return {};
 }
 
 void HoldOut::judge(const HeldOut& group, const HeldOutFactors& without_it) {
@@ -211,14 +217,28 @@ void require_more_than_drift(const MlEstimate& all, const WheelFactors& in_use, 
 
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
                                const MlEstimate& all, const MlOptions& options, bool scale_known) {
+  return cross_validate(FittedDrives{prepare(runs, in_use, options.clock_known, Density::independent), {}},
+                        in_use, all, options, scale_known);
+}
+
+CrossValidation cross_validate(const FittedDrives& drives, const WheelFactors& in_use, const MlEstimate& all,
+                               const MlOptions& options, bool scale_known) {
   MlOptions with_noise = options;
   with_noise.noise = all.noise;
   with_noise.spacing_m = all.spacing_m;
   with_noise.widening = all.widening;
-  const PreparedRuns prepared = prepare(runs, in_use, options.clock_known, Density::independent);
-  HoldOut hold_out(prepared, in_use, all, with_noise);
+  HoldOut hold_out(drives, in_use, all, with_noise);
   CrossValidation out;
-  for (const std::vector<std::size_t>& members : groups_of(prepared)) hold_out.hold_out(members, out);
+  const std::vector<std::vector<std::size_t>> groups = groups_of(drives.prepared);
+  std::vector<HoldOut::NotJudged> not_judged(groups.size());
+  in_parallel(static_cast<int>(groups.size()), [&](int i) {
+    const auto group = static_cast<std::size_t>(i);
+    not_judged[group] = hold_out.hold_out(groups[group]);
+  });
+  for (const HoldOut::NotJudged& group : not_judged) {
+    if (group.why) out.not_judged.push_back(*group.why);
+    out.claimed_elsewhere += group.claimed;
+  }
   out.runs = hold_out.judged();
   out.judge();
   require_more_than_drift(all, in_use, scale_known, out);

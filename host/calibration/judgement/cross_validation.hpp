@@ -22,6 +22,10 @@ namespace astro::calibration {
 ///
 /// Cost    less than that of the estimate: each run is followed twice more, whatever the number of groups (one for each run,
 ///         but ten at most).
+CrossValidation cross_validate(const FittedDrives& drives, const WheelFactors& in_use, const MlEstimate& all,
+                               const MlOptions& options, bool scale_known = true);
+
+/// The same with drives that were not kept: they are prepared and fitted once more.
 CrossValidation cross_validate(std::span<const Trajectory> runs, const WheelFactors& in_use,
                                const MlEstimate& all, const MlOptions& options, bool scale_known = true);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/calibration/likelihood/agreement.hpp"
@@ -251,6 +252,10 @@ void require_observable(const PreparedRuns& prepared, const WheelFactors& loaded
 
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options) {
+  return fit_ml(runs, loaded, options).estimate;
+}
+
+MlFitted fit_ml(std::span<const Trajectory> runs, const WheelFactors& loaded, const MlOptions& options) {
   PreparedRuns prepared = prepare(runs, loaded, options.clock_known, Density::independent);
   require_variety(prepared);
   // Skipped if no run has headings, because the lever arm is not known yet, and without it spins show
@@ -262,10 +267,11 @@ MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loa
   // Places that are far apart pass for noise as long as they are taken for one, and hide those that are closer.
   for (int round = 0; round < kMostSplits && split_sessions(*fit, prepared); ++round)
     fit.emplace(MlFit::of(prepared, loaded, options));
+  std::vector<Unknowns> unknowns = fit->unknowns();
   MlEstimate estimate = summarise(*std::move(fit));
   estimate.left_out = prepared.left_out;
   estimate.mended = prepared.mended;
-  return estimate;
+  return {std::move(estimate), {std::move(prepared), std::move(unknowns)}};
 }
 
 FactorCovariance cramer_rao_bound(std::span<const Trajectory> runs, const WheelFactors& factors,

@@ -133,6 +133,20 @@ struct MlEstimate {
 MlEstimate estimate_ml(std::span<const Trajectory> runs, const WheelFactors& loaded,
                        const MlOptions& options = {});
 
+/// Drives as an estimate prepared and fitted them, so that whoever judges it need not do either again.
+struct FittedDrives {
+  PreparedRuns prepared;
+  std::vector<Unknowns> unknowns;  // of each prepared run
+};
+
+struct MlFitted {
+  MlEstimate estimate;
+  FittedDrives drives;
+};
+
+/// estimate_ml, with the drives. `runs` must outlive them.
+MlFitted fit_ml(std::span<const Trajectory> runs, const WheelFactors& loaded, const MlOptions& options = {});
+
 /// The smallest covariance of the factors that an unbiased estimator can have (Cramer-Rao bound): the inverse of the Fisher
 /// information of these runs. `options.noise` must be given. The path comes from the wheels and `factors`, whose e counts as
 /// unknown, with its prior, if it is not zero; of truth only the times matter, apart from the search for the clocks and the checks of usable

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/base/error.hpp"
 #include "host/base/text/sense.hpp"
@@ -84,14 +85,6 @@ std::vector<std::string> session_names(std::span<const calibration::Trajectory> 
   return names;
 }
 
-/// The drives are judged in the sessions in which they were fitted.
-void keep_sessions(const calibration::MlEstimate& estimate, std::vector<calibration::Trajectory>& runs) {
-  for (const calibration::RunFit& fit : estimate.runs) {
-    const auto run = std::ranges::find(runs, fit.name, &calibration::Trajectory::name);
-    if (run != runs.end()) run->session = std::to_string(fit.session);
-  }
-}
-
 double truth_scale_sigma(Phases phases) {
   double most = 0;
   for (const auto& phase : phases)
@@ -164,7 +157,7 @@ FactorErrors factor_errors(const calibration::FactorCovariance& covariance, cons
 }
 
 Calibration by_ml(Phases phases, const MlChoice& choice) {
-  std::vector<calibration::Trajectory> runs = all_trajectories(phases);
+  const std::vector<calibration::Trajectory> runs = all_trajectories(phases);
   const Recordings& first = *phases.front();
   Calibration result;
   result.loaded = last_loaded(phases);
@@ -176,17 +169,17 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   ml.noise_given = choice.noise.has_value();
   if (!choice.noise && std::ranges::all_of(runs, &calibration::Trajectory::ends_only))
     ml.options.noise = calibration::noise_of_ends(runs, result.loaded, ml.options);
-  ml.estimate = calibration::estimate_ml(runs, result.loaded, ml.options);
+  auto [estimate, drives] = calibration::fit_ml(runs, result.loaded, ml.options);
+  ml.estimate = std::move(estimate);
   if (choice.clock != MlChoice::Clock::estimated) require_likely_skew(ml.estimate);
   ml.session_names = session_names(runs, ml.estimate);
-  keep_sessions(ml.estimate, runs);
   result.truth_scale_sigma = truth_scale_sigma(phases);
   // If nobody measured a length, the loaded scale stays. The loaded factors are then compared at the estimated scale, so
   // that the scale does not count in the judgement.
   const calibration::WheelFactors compared = std::isinf(result.truth_scale_sigma)
                                                  ? with_scale_of(ml.estimate.factors, result.loaded)
                                                  : result.loaded;
-  result.judgement = calibration::cross_validate(runs, compared, ml.estimate, ml.options,
+  result.judgement = calibration::cross_validate(drives, compared, ml.estimate, ml.options,
                                                  !std::isinf(result.truth_scale_sigma));
   if (result.truth_scale_sigma > 0) add_scale_error(result.truth_scale_sigma, result.loaded, ml.estimate);
   result.factors = ml.estimate.factors;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/recording/run_file.hpp"
+#include "host/recording/run_folder.hpp"
 
 namespace astro::experiment {
 
@@ -37,11 +37,12 @@ const RunSpec* first_missing(const fs::path& folder, const std::vector<RunSpec>&
 
 RunSet read_specs(const fs::path& folder, const std::vector<RunSpec>& specs, recording::Damage damage) {
   RunSet set;
+  std::vector<fs::path> files;
   for (const RunSpec& spec : specs) {
-    const fs::path file = file_of(folder, spec);
-    set.names.push_back(spec.phase + "/" + file.stem().string());
-    set.runs.push_back(recording::read_run(file, damage));
+    files.push_back(file_of(folder, spec));
+    set.names.push_back(spec.phase + "/" + files.back().stem().string());
   }
+  set.runs = recording::read_runs(files, damage);
   return set;
 }
 

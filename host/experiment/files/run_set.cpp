@@ -71,11 +71,13 @@ RunSet read_run_set(const fs::path& folder, std::span<const std::string> without
   for (const fs::path& file : files) names.push_back(run_name(file, folder));
   for (const std::string& wanted : without) left_out.push_back(matched(wanted, names, folder));
   RunSet set;
+  std::vector<fs::path> kept;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (std::find(left_out.begin(), left_out.end(), names[i]) != left_out.end()) continue;
     set.names.push_back(names[i]);
-    set.runs.push_back(recording::read_run(files[i], damage));
+    kept.push_back(files[i]);
   }
+  set.runs = recording::read_runs(kept, damage);
   if (set.runs.empty())
     throw Error("every recording in " + folder.string() + " is left out: keep some to calibrate from");
   require_no_copies(set);

@@ -25,33 +25,55 @@ inline constexpr std::size_t kCdrHeaderBytes = 4;
 /// come from anybody, so whoever keeps the names of many messages needs a limit.
 inline constexpr std::size_t kLongestName = 255;
 
+/// A recorder writes a thousand messages a second, so the buffer is as long as most messages from the beginning, and
+/// what lies behind the written part is zero.
 class CdrWriter {
  public:
+  CdrWriter() : buffer_(kUsualBytes) { buffer_[1] = 1; }
+
   template <Number T>
   void number(T value) {
     align(sizeof(T));
-    append(bytes_, value);
+    put(&value, sizeof(T));
   }
-  /// Numbers of `size` bytes each that are little-endian already.
+  /// Numbers of `size` bytes each, a power of two, that are little-endian already.
   void numbers(ByteView raw, std::size_t size) {
-    if (!raw.empty()) align(size);
-    append(bytes_, raw);
+    if (raw.empty()) return;
+    align(size);
+    put(raw.data(), raw.size());
   }
   void string(std::string_view text) {
     number(static_cast<std::uint32_t>(text.size() + 1));
-    append(bytes_, as_bytes(text));
-    bytes_.push_back(0);
+    put(text.data(), text.size());
+    reserve(1);
+    ++size_;
   }
-  const Bytes& bytes() const& { return bytes_; }
-  Bytes bytes() && { return std::move(bytes_); }
+  std::size_t size() const { return size_; }
+  Bytes bytes() const& { return {buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(size_)}; }
+  Bytes bytes() && {
+    buffer_.resize(size_);
+    return std::move(buffer_);
+  }
 
  private:
+  static constexpr std::size_t kUsualBytes = 1024;
+
   void align(std::size_t size) {
-    if (const std::size_t over = (bytes_.size() - kCdrHeaderBytes) % size; over != 0)
-      bytes_.resize(bytes_.size() + size - over);
+    const std::size_t padding = (kCdrHeaderBytes - size_) & (size - 1);
+    reserve(padding);
+    size_ += padding;
+  }
+  void reserve(std::size_t more) {
+    if (buffer_.size() - size_ < more) buffer_.resize(std::max(2 * buffer_.size(), size_ + more));
+  }
+  void put(const void* raw, std::size_t count) {
+    reserve(count);
+    if (count > 0) std::memcpy(buffer_.data() + size_, raw, count);
+    size_ += count;
   }
 
-  Bytes bytes_{0, 1, 0, 0};
+  Bytes buffer_;
+  std::size_t size_ = kCdrHeaderBytes;
 };
 
 /// Reads what any ROS 2 writer wrote, in either byte order. A message that is too short, has another encapsulation

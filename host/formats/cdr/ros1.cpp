@@ -13,13 +13,13 @@ class Converter {
   std::optional<Bytes> convert() {
     message(layout_.types.front());
     if (!ok() || in_.left() > 0) return std::nullopt;
-    return out_.bytes();
+    return std::move(out_).bytes();
   }
 
  private:
   using Field = MessageLayout::Field;
 
-  bool ok() const { return in_.ok() && out_.bytes().size() <= most_bytes_; }
+  bool ok() const { return in_.ok() && out_.size() <= most_bytes_; }
 
   void message(const MessageLayout::Type& type) {
     if (type.role == MessageLayout::Role::header) in_.take(sizeof(std::uint32_t));

@@ -9,7 +9,7 @@
 /// The compressions of chunks in bags, and the checksum of MCAP.
 namespace astro::bag {
 
-/// One zstd frame at level 3, the library's own choice.
+/// One zstd frame with the checksum of its content, which whoever expands it checks.
 Bytes compress_zstd(ByteView bytes);
 
 /// Expands a chunk to exactly `size` bytes; `compression` is "" (stored), "lz4" (frame format), "zstd" or, in

@@ -1,5 +1,7 @@
 #include "host/formats/files/mcap_records.hpp"
 
+#include <array>
+
 namespace astro::bag::mcap {
 namespace {
 
@@ -54,11 +56,13 @@ void append_string(Bytes& to, std::string_view text) {
 void append_message(Bytes& to, const Message& message) {
   constexpr std::size_t kFieldBytes = sizeof message.channel_id + sizeof message.sequence +
                                       sizeof message.log_time_ns + sizeof message.publish_time_ns;
-  append_head(to, Op::message, kFieldBytes + message.data.size());
-  append(to, message.channel_id);
-  append(to, message.sequence);
-  append(to, message.log_time_ns);
-  append(to, message.publish_time_ns);
+  std::array<std::uint8_t, kRecordHeadBytes + kFieldBytes> head{static_cast<std::uint8_t>(Op::message)};
+  store(head, 1, std::uint64_t{kFieldBytes + message.data.size()});
+  store(head, kRecordHeadBytes, message.channel_id);
+  store(head, kRecordHeadBytes + 2, message.sequence);
+  store(head, kRecordHeadBytes + 6, message.log_time_ns);
+  store(head, kRecordHeadBytes + 14, message.publish_time_ns);
+  append(to, ByteView(head));
   append(to, message.data);
 }
 

@@ -98,8 +98,8 @@ Bytes McapWriter::take_message_indexes(std::uint64_t start, Bytes& offsets) {
 void McapWriter::flush() {
   if (open_.empty()) return;
   const Bytes packed = compress_zstd(open_);
-  const bag::mcap::Chunk chunk{
-      open_span_.start_ns, open_span_.end_ns, open_.size(), crc32_ieee(open_), "zstd", packed};
+  // No CRC: the frame has a checksum of its content already, which takes a tenth of the time.
+  const bag::mcap::Chunk chunk{open_span_.start_ns, open_span_.end_ns, open_.size(), 0, "zstd", packed};
   const std::uint64_t chunk_start = size_;
   Bytes records;
   const std::uint64_t chunk_length = bag::mcap::append_record(records, Op::chunk, bag::mcap::encode(chunk));

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "host/base/error.hpp"
-#include "host/simulation/study/parallel.hpp"
+#include "host/base/parallel.hpp"
 #include "host/simulation/study/shard_file.hpp"
 
 namespace astro::simulation::study {

@@ -53,6 +53,17 @@ TEST_F(Viewer, FindsTheRobotItsBaseAndItsWheelsInARecording) {
   EXPECT_NEAR(wheels.samples.back().left, 30 * 49 * 2 * M_PI / 1000, 1e-12);
 }
 
+TEST_F(Viewer, IsShownTheRobotAtMostFiftyTimesASecond) {
+  recording::Run run = driven(true);
+  run.odometry.clear();
+  for (int i = 0; i < 1000; ++i)  // a second at the rate of the robot's control
+    run.odometry.push_back({1'000 * i, 0.001 * i, 0, 0, 1, 0, i, i});
+  const auto topics = topics_of(run);
+  EXPECT_THAT(topics, Contains("/odom 1000"));
+  EXPECT_THAT(topics, Contains("/tf 50"));
+  EXPECT_THAT(topics, Contains("/joint_states 50"));
+}
+
 TEST_F(Viewer, KnowsTheRobotBeforeItMoves) {
   topics_of(driven(true));
   std::string first;

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "host/import/drives/wheel_run.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
@@ -62,6 +63,26 @@ TEST_F(RobotFile, OfAControllerMayBeginAsADocumentOfYaml) {
   const std::string body = "diff_drive_controller:\n  ros__parameters:\n    wheel_separation: 0.16\n";
   for (const char* head : {"---\n", "# a robot\n\n--- # its base\n", "%YAML 1.2\n---\n"})
     EXPECT_THAT(read_robot_file(file("c.yaml", head + body)).wheelbase_m, Optional(0.16)) << head;
+}
+
+/// A second of wheels, worked out from the poses of the topic `odometry` if one is named.
+WheelRun a_second_of_wheels(const RobotGeometry& robot, const std::string& odometry) {
+  ImportedWheels wheels;
+  wheels.track.unit = WheelUnit::radians;
+  wheels.track.odometry = odometry;
+  for (int i = 0; i <= 50; ++i) wheels.track.samples.push_back({20'000'000 * i, 0.1 * i, 0.1 * i});
+  return run_of_wheels("drive.db3", wheels, robot);
+}
+
+TEST_F(RobotFile, WhoseOdometryIsMadeOfCommandsSaysNothingOfTheWheels) {
+  const std::string yaml =
+      "diff_drive_controller:\n  ros__parameters:\n    wheel_separation: 0.16\n    wheel_radius: 0.033\n";
+  const RobotGeometry open = read_robot_file(file("open.yaml", yaml + "    open_loop: true\n")),
+                      closed = read_robot_file(file("closed.yaml", yaml));
+  EXPECT_THAT(told_by([&] { a_second_of_wheels(open, "/odom"); }),
+              Tells(ImportProblem::odometry_of_commands, "/odom"));
+  EXPECT_EQ(a_second_of_wheels(closed, "/odom").run.odometry.size(), 51U);
+  EXPECT_EQ(a_second_of_wheels(open, "").run.odometry.size(), 51U) << "states of the joints are measured";
 }
 
 TEST_F(RobotFile, OfADiffDriveControllerHasItsMultipliersAsWhatTheRobotCarried) {
