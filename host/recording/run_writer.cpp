@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/formats/cdr/codec.hpp"
 #include "host/formats/messages/joint_state.hpp"
 #include "host/formats/messages/ros_messages.hpp"
 #include "host/formats/messages/stamped_pose.hpp"
@@ -77,6 +78,11 @@ void RunWriter::add(const lidar::Scan& scan) {
   if (!scans_) scans_ = add_topic(mcap_, "/scan", recording::laser_scan_type());
   describe(time_ns);
   mcap_.write(*scans_, time_ns, recording::encode_scan(scan));
+}
+
+void RunWriter::add(const ros2::msg::Telemetry& telemetry, std::int64_t time_us) {
+  if (!telemetry_) telemetry_ = add_topic(mcap_, "/telemetry", ros2::ros_type<ros2::msg::Telemetry>());
+  mcap_.write(*telemetry_, static_cast<std::uint64_t>(log_time_.ns(time_us)), ros2::encode(telemetry));
 }
 
 void RunWriter::close(const RunInfo& final) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
 #include "host/base/files.hpp"
 #include "host/formats/files/mcap_writer.hpp"
+#include "host/formats/messages/telemetry.hpp"
 #include "host/recording/log_time.hpp"
 #include "host/recording/robot_messages.hpp"
 #include "host/recording/run_metadata.hpp"
@@ -31,6 +33,8 @@ class RunWriter {
   void add(const OdometrySample& sample);
   void add(const TruthSample& sample);
   void add(const lidar::Scan& scan);
+  /// All else that the robot measures and commands, for plots: /telemetry, beside an /odom of the same time.
+  void add(const ros2::msg::Telemetry& telemetry, std::int64_t time_us);
   /// `final` replaces the info given at the start. Nothing may be added afterwards.
   void close(const RunInfo& final);
 
@@ -46,7 +50,7 @@ class RunWriter {
   bool described_ = false;
   std::optional<std::int64_t> shown_us_;  // the last sample of which viewers have transforms and joints
   std::uint16_t odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0;
-  std::optional<std::uint16_t> scans_;  // from the first scan on
+  std::optional<std::uint16_t> scans_, telemetry_;  // from the first one on
 };
 
 }  // namespace astro::recording

@@ -134,7 +134,6 @@ void listen(RecordOptions& options) {
   const auto client = connect(options.connection);
   const auto truth = open_truth(options.truth, options.connection.port);
   recording::RunInfo info = describe_robot(*client);
-  info.kind = "free";
   console::Progress progress("recording");
   RobotStopwatch stopwatch(*client);
   const auto done = [&] {

@@ -5,35 +5,15 @@
 #include <utility>
 
 #include "host/base/error.hpp"
-#include "host/base/utc.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
-#include "host/experiment/files/robot_identity.hpp"
-#include "host/robot/client/handshake.hpp"
+#include "host/experiment/drive/record_run.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::commands {
-namespace {
-
-recording::RunInfo free_drive(robot::Client& client) {
-  recording::RunInfo info = describe_robot(client);
-  info.kind = "free";
-  return info;
-}
-
-}  // namespace
 
 recording::RunInfo describe_robot(robot::Client& client) {
-  const protocol::HelloReply& robot = client.robot();
-  recording::RunInfo info;
-  const experiment::RobotIdentity identity = experiment::identity_of(robot);
-  info.robot_name = identity.name;
-  info.robot_id = identity.id;
-  info.board = robot.board.view();
-  info.firmware = robot::firmware_version(robot);
-  info.started_at = utc_now();
-  info.parameters = robot::RemoteParameters::fetch(client).numbers();
-  return info;
+  return experiment::info_of(client.robot(), robot::RemoteParameters::fetch(client).numbers());
 }
 
 void DriveRecording::check(const std::filesystem::path& file) {
@@ -43,7 +23,7 @@ void DriveRecording::check(const std::filesystem::path& file) {
 }
 
 DriveRecording::DriveRecording(const std::filesystem::path& file, robot::Client& client)
-    : info_(free_drive(client)), writer_(file, info_) {}
+    : info_(describe_robot(client)), writer_(file, info_) {}
 
 DriveRecording::~DriveRecording() {
   try {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdio>
 
 #include "host/base/error.hpp"
@@ -10,37 +9,12 @@
 #include "host/base/text/numbers.hpp"
 #include "host/base/text/plain_text.hpp"
 #include "host/console/console.hpp"
+#include "host/robot/client/fault_help.hpp"
 #include "host/robot/client/refusal.hpp"
 
 namespace astro::commands {
 
 namespace {
-
-constexpr std::array<std::string_view, kFaultNames.size()> kFaultAdvice{
-    "",
-    "no velocity came for longer than the parameter command_timeout: its sender ended or hung",
-    "the host fell silent during a drive: its program ended or the cable came off",
-    "the motor driver reports too much current or heat: let it cool, look for a blocked wheel or a short",
-    "the supply fell below battery_low: charge the battery",
-    "the supply rose above battery_high: check battery and regulator",
-    "a wheel turned faster than over_speed: check encoder_polarity and motor_polarity",
-    "voltage on a motor and no motion: look for a blocked wheel or a loose motor or encoder lead",
-    "counts that no motor can produce: check the encoder's leads",
-    "the control tick came late while driving: report it, the firmware should never do that",
-    "the parameters that were saved last cannot be read, and older ones or the defaults are in force: load "
-    "yours "
-    "with 'astrolabe params import' or 'upload', or keep these with 'params save'",
-    "the flash did not keep what was written: the last set stays in force, the part may be worn",
-    "an emergency stop was requested",
-    "a wheel turned against its voltage: 'astrolabe check-wiring' finds a wrong motor or encoder polarity",
-    "the firmware hung or ran wild and was restarted: report it, it should never do that",
-    "the wheels still turned a second after their set point became zero: look for a slope or a load that the "
-    "motors do "
-    "not hold; 'astrolabe check-wiring' finds a wrong polarity or gear ratio, 'astrolabe tune' weak gains",
-    "the gyro saw a turn that the wheels did not make, and the parameter gyro_slip_stops is 1: somebody "
-    "pushed "
-    "the robot, it slipped, or gyro_axis names the wrong axis or sign",
-};
 
 void to_stdout(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
@@ -78,8 +52,21 @@ std::vector<std::string> fault_list(std::uint32_t mask) {
 std::string faults_in_words(std::uint32_t mask) { return mask == 0 ? "none" : robot::fault_names(mask); }
 
 std::string_view fault_help(Fault fault) {
-  const auto index = static_cast<std::size_t>(fault);
-  return index < kFaultAdvice.size() ? kFaultAdvice[index] : "";
+  switch (fault) {
+    case Fault::parameters:
+      return "the parameters that were saved last cannot be read, and older ones or the defaults are in "
+             "force: "
+             "load yours with 'astrolabe params import' or 'upload', or keep these with 'params save'";
+    case Fault::runaway:
+      return "a wheel turned against its voltage: 'astrolabe check-wiring' finds a wrong motor or encoder "
+             "polarity";
+    case Fault::stop_timeout:
+      return "the wheels still turned a second after their set point became zero: look for a slope or a load "
+             "that the motors do not hold; 'astrolabe check-wiring' finds a wrong polarity or gear ratio, "
+             "'astrolabe tune' weak gains";
+    default:
+      return robot::fault_help(fault);
+  }
 }
 
 std::string duration_in_words(std::uint64_t us) {

@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/utc.hpp"
+#include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/telemetry_sample.hpp"
+#include "host/robot/client/handshake.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -169,6 +172,20 @@ recording::RunInfo info_of(const Plan& plan, const RunSpec& spec) {
                 : spec.kind == "circle" ? plan.circle_radius_m
                                         : plan.line_m;
   info.speed_mps = plan.speed_mps;
+  return info;
+}
+
+recording::RunInfo info_of(const protocol::HelloReply& robot,
+                           const std::map<std::string, double>& parameters) {
+  const RobotIdentity identity = identity_of(robot);
+  recording::RunInfo info;
+  info.kind = "free";
+  info.robot_name = identity.name;
+  info.robot_id = identity.id;
+  info.board = robot.board.view();
+  info.firmware = robot::firmware_version(robot);
+  info.started_at = utc_now();
+  info.parameters = parameters;
   return info;
 }
 

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "host/base/error.hpp"
 #include "host/experiment/files/plan.hpp"
@@ -30,6 +32,10 @@ robot::Path path_of(const Plan& plan, const RunSpec& spec);
 
 /// Size, speed and names of a run before it is driven; the caller adds robot and parameters.
 recording::RunInfo info_of(const Plan& plan, const RunSpec& spec);
+
+/// The robot with its parameters and the time, of a drive that begins now and follows no plan.
+recording::RunInfo info_of(const protocol::HelloReply& robot,
+                           const std::map<std::string, double>& parameters);
 
 /// Drives one run from rest to rest, starting at odometry pose 0, and records odometry
 /// and truth. The robot stands still for more than half a second at both ends, so that the poses

@@ -6,7 +6,6 @@
 #include "host/formats/cdr/codec.hpp"
 #include "host/formats/messages/ros_messages.hpp"
 #include "host/formats/messages/std.hpp"
-#include "host/robot/motion/other_program.hpp"
 #include "host/robot/motion/rest.hpp"
 
 namespace astro::live {
@@ -34,7 +33,7 @@ Driver::Driver(std::vector<Middleware*> middlewares, OpenPort open, DriverOption
       names_(options_.node_namespace, options_.names),
       utc_(options_.clock),
       polled_(utc_.steady()),
-      link_(std::move(open), options_.clock, period_ms(options_.rate_hz)),
+      link_(std::move(open), options_.clock, {period_ms(options_.rate_hz), protocol::Telemetry::kAll}),
       driving_(options_.cmd_vel_timeout, options_.velocities_after_stop),
       odometry_(options_.errors),
       parameters_([this] { return link_.session(); }, [this] { return driving_.armed(); }, own_parameters(),
@@ -116,8 +115,7 @@ void Driver::run(const std::function<bool()>& goes_on) {
 
 void Driver::begin(RobotSession& session) {
   newest_.reset();
-  const double timeout_ms = session.numbers().at("command_timeout");
-  if (robot::stop_left_drive(session.client(), microseconds(std::llround(1e3 * timeout_ms))))
+  if (session.stop_left_drive())
     options_.notice("the robot drove, and no program here drives it: it was stopped");
 }
 

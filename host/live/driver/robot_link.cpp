@@ -1,9 +1,11 @@
 #include "host/live/driver/robot_link.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/params/table.hpp"
 #include "host/robot/client/handshake.hpp"
+#include "host/robot/motion/other_program.hpp"
 
 namespace astro::live {
 
@@ -19,10 +21,9 @@ constexpr microseconds kBetweenTries = milliseconds(200);
 }  // namespace
 
 RobotSession::RobotSession(std::unique_ptr<robot::Transport> transport,
-                           const std::optional<protocol::HelloReply>& known,
-                           std::uint16_t telemetry_period_ms)
+                           const std::optional<protocol::HelloReply>& known, protocol::SetTelemetry telemetry)
     : client_(connected(std::move(transport), known)),
-      period_ms_(telemetry_period_ms),
+      wanted_(telemetry),
       parameters_(robot::RemoteParameters::begin(*client_, kPatience.tries)) {
   on_boot_ = client_->on<protocol::Booted>([this](const protocol::Booted&) { restarted_ = true; });
   on_fault_ = client_->on<protocol::FaultRaised>([this](const protocol::FaultRaised&) { fault_ = true; });
@@ -33,7 +34,7 @@ RobotSession::RobotSession(std::unique_ptr<robot::Transport> transport,
   });
   numbers_["command_timeout"] =
       ask(protocol::GetParameter{static_cast<std::uint16_t>(Param::command_timeout)}).active;
-  ask_for_telemetry();
+  ask_for_telemetry(wanted_);
   telemetry_at_ = client_->now();
 }
 
@@ -56,14 +57,21 @@ bool RobotSession::read_parameters(microseconds most) {
   return true;
 }
 
-void RobotSession::ask_for_telemetry() {
+void RobotSession::ask_for_telemetry(protocol::SetTelemetry telemetry) {
+  wanted_ = telemetry;
   asked_at_ = client_->now();
-  ask(protocol::SetTelemetry{period_ms_, protocol::Telemetry::kAll});
+  ask(wanted_);
+}
+
+bool RobotSession::stop_left_drive() {
+  const double timeout_ms = numbers_.at("command_timeout");
+  return robot::stop_left_drive(*client_, microseconds(std::llround(1e3 * timeout_ms)));
 }
 
 void RobotSession::keep_telemetry() {
-  const microseconds patience = std::max<microseconds>(milliseconds(500), milliseconds(5 * period_ms_));
-  if (telemetry_age() > patience && client_->now() - asked_at_ > patience) ask_for_telemetry();
+  const microseconds patience =
+      std::max<microseconds>(milliseconds(500), milliseconds(5 * wanted_.period_ms));
+  if (telemetry_age() > patience && client_->now() - asked_at_ > patience) ask_for_telemetry(wanted_);
 }
 
 void RobotSession::pump(microseconds most) {
@@ -80,7 +88,7 @@ std::optional<protocol::Telemetry> RobotSession::take_sample() {
 bool RobotLink::seek() {
   if (session_ || (tried_ && clock_.steady() - *tried_ < kBetweenTries)) return false;
   try {
-    session_ = std::make_unique<RobotSession>(open_(), robot_, period_ms_);
+    session_ = std::make_unique<RobotSession>(open_(), robot_, telemetry_);
     robot_ = session_->client().robot();
     tried_.reset();
   } catch (const Error& error) {
@@ -88,6 +96,11 @@ bool RobotLink::seek() {
     tried_ = clock_.steady();
   }
   return session_ != nullptr;
+}
+
+void RobotLink::ask_for_telemetry(protocol::SetTelemetry telemetry) {
+  telemetry_ = telemetry;
+  if (session_) session_->ask_for_telemetry(telemetry);
 }
 
 void RobotLink::lose(const Error& why) {

@@ -22,7 +22,7 @@ class RobotSession {
 
   /// Shakes hands and asks for telemetry. Throws astro::Error with the reason if no robot answers, or another one than `known`.
   RobotSession(std::unique_ptr<robot::Transport> transport, const std::optional<protocol::HelloReply>& known,
-               std::uint16_t telemetry_period_ms);
+               protocol::SetTelemetry telemetry);
 
   template <protocol::Request M>
   typename M::Reply ask(const M& message) {
@@ -36,6 +36,10 @@ class RobotSession {
 
   /// The robot's clock in microseconds, read just now.
   std::uint64_t device_now_us() { return ask(protocol::Ping{}).device_time_us; }
+  /// Stops a robot that drives although no program here drives it (host/robot/motion/other_program.hpp); whether it was stopped.
+  bool stop_left_drive();
+  /// Asks for this telemetry from now on.
+  void ask_for_telemetry(protocol::SetTelemetry telemetry);
   /// Asks for telemetry again if none has come for half a second and for five periods.
   void keep_telemetry();
 
@@ -57,10 +61,9 @@ class RobotSession {
  private:
   static std::unique_ptr<robot::Client> connected(std::unique_ptr<robot::Transport> transport,
                                                   const std::optional<protocol::HelloReply>& known);
-  void ask_for_telemetry();
 
   std::unique_ptr<robot::Client> client_;
-  std::uint16_t period_ms_;
+  protocol::SetTelemetry wanted_;
   robot::RemoteParameters parameters_;
   std::map<std::string, double> numbers_;
   std::deque<protocol::Telemetry> samples_;
@@ -76,8 +79,8 @@ using OpenPort = std::function<std::unique_ptr<robot::Transport>()>;
 /// answers. Another robot at the same port is refused, because its odometry and its parameters are different.
 class RobotLink {
  public:
-  RobotLink(OpenPort open, HostClock clock, std::uint16_t telemetry_period_ms)
-      : open_(std::move(open)), clock_(std::move(clock)), period_ms_(telemetry_period_ms) {}
+  RobotLink(OpenPort open, HostClock clock, protocol::SetTelemetry telemetry)
+      : open_(std::move(open)), clock_(std::move(clock)), telemetry_(telemetry) {}
 
   /// Null while there is no robot.
   RobotSession* session() { return session_.get(); }
@@ -86,6 +89,8 @@ class RobotLink {
   bool seek();
   /// Ends the session, for this reason.
   void lose(const Error& why);
+  /// Asks the robot for this telemetry, now if it is there, and whenever it is found.
+  void ask_for_telemetry(protocol::SetTelemetry telemetry);
 
   /// Why there is no session.
   const Error& why() const { return why_; }
@@ -97,7 +102,7 @@ class RobotLink {
  private:
   OpenPort open_;
   HostClock clock_;
-  std::uint16_t period_ms_;
+  protocol::SetTelemetry telemetry_;
   std::unique_ptr<RobotSession> session_;
   std::optional<protocol::HelloReply> robot_;
   Error why_{"no robot was found yet"};

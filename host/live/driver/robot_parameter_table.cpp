@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/robot/parameters/far_change.hpp"
+#include "host/robot/parameters/upload.hpp"
 
 namespace astro::live {
 
@@ -267,27 +268,10 @@ void RobotParameterTable::put_in_force(RobotSession& session,
   for (const ros2::msg::Parameter& each : parameters)
     values[each.name] = wanted(robot.row(each.name), each.value);
   require_near(robot, values);
-  // The robot would refuse the commit, after all values have been sent.
-  if (protocol::gives_power(session.ask(protocol::GetStatus{}).mode))
-    throw robot::RobotRefused(protocol::CommitParameters::kName, protocol::ErrorCode::moving, 0);
-  robot.revert();
-  for (const auto& [name, value] : values) {
-    look_up(session);
-    robot.stage(name, value);
-  }
-  look_up(session);
-  robot.commit();
-  for (const auto& [name, value] : values) {
-    look_up(session);
-    const ParameterRow& row = robot.row(name);
-    robot.refresh(static_cast<std::size_t>(&row - robot.rows().data()));
-  }
+  robot::commit_at_rest(
+      session.client(), robot, values, [&] { look_up(session); }, RobotSession::kPatience);
   note(session);
-  for (const auto& [name, value] : values) {
-    const ParameterRow& row = robot.row(name);
-    if (row.active != robot::to_raw(row, value))
-      throw Error(row.name + " was read back as " + robot::describe(row, robot::to_value(row, row.active)));
-  }
+  robot::require_read_back(robot, values);
 }
 
 }  // namespace astro::live

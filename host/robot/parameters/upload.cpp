@@ -108,4 +108,31 @@ UploadReport upload(Client& client, const std::map<std::string, Value>& values,
   return Upload(client, values, reconnect_timeout).run();
 }
 
+void commit_at_rest(Client& client, RemoteParameters& parameters, const std::map<std::string, Value>& values,
+                    const std::function<void()>& between, RetryPolicy patience) {
+  between();
+  // The robot would refuse the commit, after all values have been sent.
+  if (protocol::gives_power(client.request(protocol::GetStatus{}, patience).mode))
+    throw RobotRefused(protocol::CommitParameters::kName, protocol::ErrorCode::moving, 0);
+  parameters.revert();
+  for (const auto& [name, value] : values) {
+    between();
+    parameters.stage(name, value);
+  }
+  between();
+  parameters.commit();
+  for (const auto& [name, value] : values) {
+    between();
+    parameters.refresh(static_cast<std::size_t>(&parameters.row(name) - parameters.rows().data()));
+  }
+}
+
+void require_read_back(const RemoteParameters& parameters, const std::map<std::string, Value>& values) {
+  for (const auto& [name, value] : values) {
+    const ParameterRow& row = parameters.row(name);
+    if (row.active != to_raw(row, value))
+      throw Error(row.name + " was read back as " + describe(row, to_value(row, row.active)));
+  }
+}
+
 }  // namespace astro::robot

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,5 +38,17 @@ struct UploadReport {
 /// holds the whole old set or the whole new one); Error if it holds neither.
 UploadReport upload(Client& client, const std::map<std::string, Value>& values,
                     microseconds reconnect_timeout = std::chrono::seconds(10));
+
+/// The same for callers that must not wait for a lost link, and that have other work between two requests: refuses a robot
+/// that drives before anything is sent (RobotRefused, moving), opens the staging area, stages, commits and reads the values
+/// back. `between` is called before each request and may throw; `patience` is that of the first request.
+///
+/// Throws Error as RemoteParameters::stage and commit do.
+void commit_at_rest(
+    Client& client, RemoteParameters& parameters, const std::map<std::string, Value>& values,
+    const std::function<void()>& between = [] {}, RetryPolicy patience = {});
+
+/// Throws Error that names the first of `values` that the robot does not hold, as it was read last.
+void require_read_back(const RemoteParameters& parameters, const std::map<std::string, Value>& values);
 
 }  // namespace astro::robot
