@@ -1,11 +1,10 @@
 #include "host/page/calls/calls.hpp"
 
 #include <array>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "host/base/error.hpp"
+#include "host/page/calls/attempt.hpp"
 #include "host/page/calls/calibrate.hpp"
 #include "host/page/calls/inspect.hpp"
 #include "host/page/calls/remedies.hpp"
@@ -23,11 +22,6 @@ struct Call {
 
 constexpr std::array kCalls{Call{"calibrate", calibrate}, Call{"inspect", inspect}, Call{"try_out", try_out}};
 
-json refusal(const std::string& sentence, const std::vector<std::string>& values = {},
-             const std::vector<std::string>& remedies = {}) {
-  return {{"error", {{"sentence", sentence}, {"values", values}, {"remedies", remedies}}}};
-}
-
 /// Takes the folder away from each text that names a file in it: whoever asks knows files by their names.
 void make_relative(json& value, const std::string& folder) {
   if (value.is_string()) {
@@ -43,13 +37,7 @@ json answered(const std::string& call, const json& question, const std::filesyst
   for (const Call& each : kCalls) {
     if (each.name != call) continue;
     if (!question.is_object()) return refusal("the question is no object");
-    try {
-      return {{"result", each.answer(question, folder, emit)}};
-    } catch (const Error& error) {
-      return refusal(error.what(), error.values(), remedies(error));
-    } catch (const std::exception& error) {  // of a file, or of JSON
-      return refusal(error.what());
-    }
+    return attempt([&] { return each.answer(question, folder, emit); }, remedies);
   }
   return refusal("there is no call '" + call + "'", {call});
 }

@@ -14,6 +14,7 @@
 #include "host/experiment/analysis/results.hpp"
 #include "host/experiment/drive/experiment.hpp"
 #include "host/page/calls/question.hpp"
+#include "host/page/calls/simulated_robot.hpp"
 #include "host/report/report.hpp"
 #include "host/robot/client/client.hpp"
 #include "host/simulation/robot/in_process.hpp"
@@ -26,21 +27,6 @@ using nlohmann::json;
 // A page draws the way so far; a second of it is 30 cm at the usual speed.
 constexpr std::size_t kPointsOfAnEvent = 10;
 constexpr std::int64_t kBetweenPoints_us = 100'000;
-
-double within(const json& question, const char* name, double usual, double least, double most) {
-  return number_in(question, name, least, most).value_or(usual);
-}
-
-sim::Config robot_of(const json& question) {
-  sim::Config config;
-  config.seed = static_cast<std::uint64_t>(within(question, "seed", 1, 0, 1e9));
-  config.true_ed = within(question, "E_d", 1.00416, 0.9, 1.1);
-  config.true_wheelbase_m = within(question, "E_b", 0.99521, 0.9, 1.1) * config.nominal_wheelbase_m;
-  config.scale = within(question, "S", 1, 0.9, 1.1);
-  config.true_e = within(question, "e", 0, -0.1, 0.2);
-  config.slip_m *= within(question, "slip", 1, 0, 1000);
-  return config;
-}
 
 /// The two ways of a drive, each in the frame of its own start.
 class Ways {
@@ -90,10 +76,10 @@ json exact_factors(const sim::Config& config) {
 }  // namespace
 
 json try_out(const json& question, const std::filesystem::path& folder, const Emit& emit) {
-  const sim::Config config = robot_of(question);
+  const sim::Config config = simulated_robot_in(question);
   experiment::Plan plan;
-  plan.runs = static_cast<int>(within(question, "runs", 5, 1, 50));
-  plan.side_m = within(question, "side_m", 3, 0.2, 20);
+  plan.runs = static_cast<int>(number_in(question, "runs", 1, 50).value_or(5));
+  plan.side_m = number_in(question, "side_m", 0.2, 20).value_or(3);
   plan.truth = "sim";
   plan.check();
 

@@ -15,13 +15,18 @@ const questions = Array.from({ length: 10 }, (_, i) => ({
   question: { seed: i + 1, runs: 2, E_d: 1 + 0.002 * (i - 4), E_b: 1 - 0.003 * (i - 5), S: 1 + 0.001 * i, e: 0.004 * i },
 }));
 
-async function answers_of_module() {
+async function new_module() {
   // Emscripten 3.1.6 takes node for one with CommonJS, and cannot read a file: address.
   globalThis.__dirname = page;
   globalThis.require = createRequire(import.meta.url);
   const { default: create } = await import(path.join(page, "astrolabe.mjs"));
   const module = await create({ wasmBinary: readFileSync(path.join(page, "astrolabe.wasm")) });
   module.FS.mkdir("/files-of-the-page");
+  return module;
+}
+
+async function answers_of_module() {
+  const module = await new_module();
   return questions.map(({ call, question }) => JSON.parse(module.answer(call, JSON.stringify(question), () => {})));
 }
 
@@ -51,6 +56,39 @@ test("ten robots are calibrated by the module as by this machine's own program",
     }
   });
   console.log(`seeds ${questions[0].question.seed} to ${questions.at(-1).question.seed}: at most ${farthest} apart`);
+});
+
+test("a robot in the module drives while the page repeats its velocity, and rests when it does not", async () => {
+  const module = await new_module();
+  let state = null;
+  let samples = 0;
+  const ask = (call, question) => {
+    const told = (text) => {
+      const event = JSON.parse(text);
+      if (event.event === "state") state = event;
+      if (event.event === "samples") samples += event.t_s.length;
+    };
+    const answer = JSON.parse(module.answer(`robot/${call}`, JSON.stringify(question), told));
+    assert.ok(answer.result, `${call}: ${JSON.stringify(answer.error)}`);
+    return answer.result;
+  };
+  let now_s = 100;
+  const pass_s = (seconds, meanwhile) => {
+    for (const end_s = now_s + seconds; now_s < end_s; ) {
+      meanwhile();
+      ask("step", { now_s: (now_s += 0.02) });
+    }
+  };
+  assert.equal(ask("open", { simulated: { seed: 1 } }).simulated, true);
+  ask("watch", { signals: ["v"], rate_hz: 1000 });
+  ask("arm", {});
+  pass_s(1, () => ask("drive", { v_mps: 0.3, w_radps: 0 }));
+  assert.equal(state.moving, true);
+  pass_s(2, () => {});
+  assert.equal(state.moving, false);
+  // Three seconds at 1 kHz; requests let a few milliseconds of the robot's time pass, too.
+  assert.ok(Math.abs(samples - 3000) < 150, `${samples} samples`);
+  ask("close", {});
 });
 
 test("the module comes over the network in at most 1.5 MB", () => {

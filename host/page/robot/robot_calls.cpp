@@ -1,0 +1,347 @@
+#include "host/page/robot/robot_calls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "host/base/error.hpp"
+#include "host/experiment/drive/record_run.hpp"
+#include "host/page/calls/attempt.hpp"
+#include "host/page/calls/question.hpp"
+#include "host/page/calls/simulated_robot.hpp"
+#include "host/page/robot/robot_call_problem.hpp"
+#include "host/recording/telemetry_sample.hpp"
+#include "host/robot/client/handshake.hpp"
+#include "host/robot/motion/other_program.hpp"
+
+namespace astro::page {
+namespace {
+
+using nlohmann::json;
+using protocol::Telemetry;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::uint16_t kUsualPeriod_ms = 20;
+/// What pose, state and path events are made of.
+constexpr std::uint32_t kAlways = Telemetry::kPose | Telemetry::kTwist | Telemetry::kCounts |
+                                  Telemetry::kWheelSpeed | Telemetry::kBattery | Telemetry::kState |
+                                  Telemetry::kPath;
+/// The longest wait of the link before what is due is looked at again.
+constexpr microseconds kSlice = milliseconds(1), kSliceUnarmed = milliseconds(5);
+
+std::vector<std::string> remedies_of(const Error& error) {
+  if (error.kind() == Kind(RobotCallProblem::needs_confirmation)) return {"confirm"};
+  return {};
+}
+
+json signals_json() {
+  json list = json::array();
+  for (const Signal& each : signals())
+    list.push_back({{"name", each.name}, {"unit", each.unit}, {"group", each.group}});
+  return list;
+}
+
+json pose_json(const Pose2& pose) {
+  return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.theta_rad}};
+}
+
+}  // namespace
+
+RobotCalls::RobotCalls(RobotPorts ports, std::filesystem::path folder, Tell tell)
+    : ports_(std::move(ports)), folder_(std::move(folder)), tell_(std::move(tell)) {}
+
+RobotCalls::~RobotCalls() {
+  try {
+    if (robot_) close(driving_.driver(), json::object());
+  } catch (const std::exception&) {  // a robot that cannot be reached stops by its own time-out
+  }
+}
+
+const std::map<std::string_view, json (RobotCalls::*)(Page, const json&)>& RobotCalls::calls() {
+  static const std::map<std::string_view, json (RobotCalls::*)(Page, const json&)> all{
+      {"robot/ports", &RobotCalls::ports},
+      {"robot/open", &RobotCalls::open},
+      {"robot/close", &RobotCalls::close},
+      {"robot/watch", &RobotCalls::watch},
+      {"robot/arm", &RobotCalls::arm},
+      {"robot/disarm", &RobotCalls::disarm},
+      {"robot/stop", &RobotCalls::stop},
+      {"robot/pause", &RobotCalls::pause},
+      {"robot/resume", &RobotCalls::resume},
+      {"robot/emergency_stop", &RobotCalls::emergency_stop},
+      {"robot/clear_faults", &RobotCalls::clear_faults},
+      {"robot/drive", &RobotCalls::drive},
+      {"robot/path", &RobotCalls::path},
+      {"robot/parameters", &RobotCalls::parameters},
+      {"robot/stage", &RobotCalls::stage},
+      {"robot/commit", &RobotCalls::commit},
+      {"robot/discard", &RobotCalls::discard},
+      {"robot/record", &RobotCalls::record}};
+  return all;
+}
+
+json RobotCalls::answer(Page page, const std::string& call, const json& question) {
+  const auto found = calls().find(call);
+  if (found == calls().end()) return refusal("there is no call '" + call + "'", {call});
+  if (!question.is_object()) return refusal("the question is no object");
+  json told = attempt(
+      [&] {
+        try {
+          return (this->*found->second)(page, question);
+        } catch (const robot::LinkLost& error) {
+          lose(error);
+          throw;
+        }
+      },
+      remedies_of);
+  report();
+  return told;
+}
+
+json RobotCalls::ports_answer(const RobotPorts& ports) {
+  return attempt(
+      [&] {
+        json list = json::array();
+        for (const RobotPort& each : ports.list()) list.push_back({{"path", each.path}, {"what", each.what}});
+        return json{{"ports", list}};
+      },
+      remedies_of);
+}
+
+json RobotCalls::ports(Page, const json&) {
+  const json told = ports_answer(ports_);
+  return told.contains("result") ? told["result"] : throw Error(told["error"]["sentence"].get<std::string>());
+}
+
+OpenedRobot& RobotCalls::robot() {
+  if (!robot_) throw Error("no robot is open: open one first", RobotCallProblem::no_robot);
+  return *robot_;
+}
+
+live::RobotSession& RobotCalls::known_session() {
+  live::RobotSession& found = session();
+  if (!found.knows_parameters())
+    throw Error("the robot was found just now, and its parameters are being read: ask again");
+  return found;
+}
+
+json RobotCalls::open(Page page, const json& question) {
+  const std::string port = text_in(question, "port");
+  const auto simulated = question.find("simulated");
+  const bool asks_for_one = !port.empty() || simulated != question.end();
+  if (robot_ && asks_for_one && (simulated != question.end() || port != robot_->port()))
+    throw Error("another robot is open: close it first", RobotCallProblem::another_robot, {robot_->port()});
+  if (!robot_ && !asks_for_one) robot();
+  if (simulated != question.end() && !simulated->is_object()) throw Error("simulated is no object");
+  if (!robot_) {
+    robot_ = port.empty() ? OpenedRobot::simulated(simulated_robot_in(*simulated))
+                          : OpenedRobot::at_port(ports_, port);
+    ask_for_telemetry();
+  }
+  return description(page);
+}
+
+json RobotCalls::description(Page page) {
+  live::RobotSession& found = known_session();
+  const protocol::HelloReply& robot = found.client().robot();
+  json told = parameters_.list(found);
+  told.update({{"port", robot_->port()},
+               {"name", experiment::info_of(robot, {}).robot_name},
+               {"firmware", robot::firmware_version(robot)},
+               {"hardware", robot.board.view()},
+               {"page", page},
+               {"simulated", robot_->is_simulated()},
+               {"signals", signals_json()}});
+  return told;
+}
+
+json RobotCalls::close(Page page, const json&) {
+  if (!robot_) return json::object();
+  driving_.require_free_for(page);
+  if (live::RobotSession* found = robot_->session()) driving_.end(*found);
+  driving_.release("the robot was closed");
+  if (recording_) record(page, {{"on", false}});
+  report();
+  robot_.reset();
+  newest_.reset();
+  watches_.clear();
+  parameters_.discard();
+  other_driver_.clear();
+  return json::object();
+}
+
+json RobotCalls::watch(Page page, const json& question) {
+  std::vector<const Signal*> wanted;
+  for (const std::string& name : texts_in(question, "signals")) wanted.push_back(&signal_named(name));
+  const double rate_hz = number_in(question, "rate_hz", 1, 1000).value_or(50);
+  const auto period_ms = static_cast<std::uint16_t>(std::lround(1000 / rate_hz));
+  if (live::RobotSession* found = robot().session()) take_samples(*found);  // of the time before
+  watches_.erase(page);
+  if (!wanted.empty()) watches_.emplace(page, SignalWatch(std::move(wanted), period_ms));
+  ask_for_telemetry();
+  return {{"rate_hz", 1000.0 / period_ms}};
+}
+
+void RobotCalls::ask_for_telemetry() {
+  protocol::SetTelemetry wanted{kUsualPeriod_ms, kAlways};
+  for (const auto& [page, each] : watches_) {
+    wanted.period_ms = std::min(wanted.period_ms, each.period_ms());
+    wanted.fields |= each.fields();
+  }
+  if (recording_) wanted.fields = Telemetry::kAll;
+  if (robot_) robot_->link().ask_for_telemetry(wanted);
+}
+
+json RobotCalls::arm(Page page, const json&) { return driving_.arm(known_session(), page); }
+json RobotCalls::disarm(Page, const json&) { return driving_.disarm(session()); }
+json RobotCalls::stop(Page, const json&) { return driving_.stop(session()); }
+json RobotCalls::pause(Page, const json&) { return driving_.pause(session()); }
+json RobotCalls::resume(Page page, const json&) { return driving_.resume(session(), page); }
+json RobotCalls::emergency_stop(Page, const json&) { return driving_.emergency_stop(session()); }
+json RobotCalls::clear_faults(Page, const json&) {
+  session().ask(protocol::ClearFaults{});
+  return {{"notice", "cleared"}};
+}
+json RobotCalls::drive(Page page, const json& question) { return driving_.drive(session(), page, question); }
+json RobotCalls::path(Page page, const json& question) { return driving_.path(session(), page, question); }
+json RobotCalls::parameters(Page, const json&) {
+  // While the robot drives nobody can change them, and the link has no time for the table.
+  return driving_.armed() ? parameters_.list(known_session()) : parameters_.read(known_session());
+}
+json RobotCalls::stage(Page, const json& question) { return parameters_.stage(known_session(), question); }
+json RobotCalls::commit(Page page, const json& question) {
+  driving_.require_free_for(page);
+  return parameters_.commit(known_session(), question);
+}
+json RobotCalls::discard(Page, const json&) { return parameters_.discard(); }
+
+json RobotCalls::record(Page, const json& question) {
+  const bool on = flag_in(question, "on");
+  if (on && recording_) throw Error("a recording is under way: end it first", {}, {recording_->file()});
+  if (on) {
+    live::RobotSession& found = known_session();
+    recording::RunInfo info = experiment::info_of(found.client().robot(), found.numbers());
+    robot_->take_truth();  // that of before is not recorded
+    if (robot_->is_simulated()) info.truth_source = "sim", info.truth_clock = "robot";
+    recording_.emplace(folder_, info);
+    ask_for_telemetry();
+    return {{"file", recording_->file()}};
+  }
+  if (!recording_) throw Error("no recording is under way");
+  WatchedRecording& ending = *recording_;
+  const std::string file = ending.file();
+  try {
+    ending.close();
+  } catch (...) {
+    recording_.reset();
+    throw;
+  }
+  recording_.reset();
+  ask_for_telemetry();
+  return {{"file", file}};
+}
+
+void RobotCalls::step(microseconds most) {
+  if (!robot_) return report();
+  const microseconds until = robot_->now() + most;
+  do {
+    try {
+      work(
+          std::clamp(until - robot_->now(), microseconds::zero(), driving_.armed() ? kSlice : kSliceUnarmed));
+    } catch (const Error& error) {
+      lose(error);
+    }
+  } while (robot_->session() != nullptr && robot_->now() < until);
+  report();
+}
+
+void RobotCalls::work(microseconds most) {
+  if (robot_->seek()) newest_.reset();
+  live::RobotSession* found = robot_->session();
+  if (found == nullptr) return;
+  if (!found->knows_parameters()) found->read_parameters(milliseconds(5));
+  driving_.step(*found);
+  found->pump(most);
+  if (found->restarted()) throw robot::LinkLost("the robot has restarted");
+  if (found->take_fault()) driving_.release("the robot stopped by itself");
+  take_samples(*found);
+  found->keep_telemetry();
+  look_for_other_driver(*found);
+}
+
+void RobotCalls::take_samples(live::RobotSession& session) {
+  while (const auto sample = session.take_sample()) take(*sample);
+}
+
+void RobotCalls::take(const Telemetry& telemetry) {
+  newest_ = telemetry;
+  if (recording_) recording_->add(telemetry, robot_->take_truth());
+  for (auto& [page, each] : watches_) each.take(telemetry);
+}
+
+/// Another program at the same port may drive, of which the robot itself says nothing.
+void RobotCalls::look_for_other_driver(live::RobotSession& session) {
+  if (robot_->is_simulated() || session.client().now() < look_at_) return;
+  look_at_ = session.client().now() + seconds(1);
+  if (driving_.armed()) return other_driver_.clear();
+  const robot::PortUsers users = robot::port_users(session.client());
+  other_driver_ = users.driver_pid == 0 ? "" : robot::driven_by_another(users).sentence;
+}
+
+void RobotCalls::lose(const Error& why) {
+  driving_.release("the link to the robot was lost");
+  if (robot_) robot_->lose(why);
+  newest_.reset();
+  other_driver_.clear();
+}
+
+RobotState RobotCalls::state() const {
+  RobotState state;
+  state.open = robot_ != nullptr;
+  state.armed = driving_.armed();
+  state.driver = driving_.driver();
+  state.telemetry = newest_;
+  if (robot_ && robot_->link().losses() > 0 && newest_ == std::nullopt)
+    state.why_lost = robot_->link().why().what();
+  state.other_driver = other_driver_;
+  if (recording_) state.recording = recording_->file();
+  return state;
+}
+
+void RobotCalls::report() {
+  const microseconds now = robot_ ? robot_->now() : ports_.clock.steady();
+  if (const auto event = state_report_.take(state(), now)) tell_(kAllPages, *event);
+  if (const auto event = driving_.path_event(newest_.value_or(Telemetry{}), now)) tell_(kAllPages, *event);
+  if (!robot_ || !newest_) return;
+  for (auto& [page, each] : watches_) {
+    const auto samples = each.batch(now);
+    if (!samples) continue;
+    tell_(page, *samples);
+    const recording::OdometrySample at = recording::to_sample(*newest_);
+    json pose = pose_json({at.x_m, at.y_m, at.theta_rad});
+    const auto truth = robot_->truth();
+    pose.update({{"event", "pose"}, {"truth", truth ? pose_json(*truth) : json(nullptr)}});
+    tell_(page, pose);
+  }
+}
+
+void RobotCalls::leave(Page page) {
+  watches_.erase(page);
+  if (!robot_) return;
+  try {
+    ask_for_telemetry();
+    if (live::RobotSession* found = robot_->session()) driving_.leave(*found, page);
+  } catch (const Error& error) {
+    lose(error);
+  }
+  report();
+}
+
+std::optional<microseconds> RobotCalls::simulated_now() const {
+  return robot_ && robot_->is_simulated() ? std::optional(robot_->now()) : std::nullopt;
+}
+
+}  // namespace astro::page

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "host/page/robot/driving_calls.hpp"
+#include "host/page/robot/opened_robot.hpp"
+#include "host/page/robot/parameter_calls.hpp"
+#include "host/page/robot/signal_watch.hpp"
+#include "host/page/robot/state_event.hpp"
+#include "host/page/robot/watched_recording.hpp"
+
+namespace astro::page {
+
+/// What the pages that somebody has open can do with one robot. README.md beside this file has all calls and events.
+///
+/// Errors   answers, never exceptions: {"error": {"sentence", "values", "remedies"}}.
+/// Threads  one.
+/// Waits    answer() for the robot's answers, at most as long as the link's time-outs; step() as it is told.
+class RobotCalls {
+ public:
+  static constexpr Page kAllPages = 0;
+  /// Receives an event for one page, or for all of them.
+  using Tell = std::function<void(Page, const nlohmann::json& event)>;
+
+  /// `folder`: where recordings are written.
+  RobotCalls(RobotPorts ports, std::filesystem::path folder, Tell tell);
+  /// A robot that a page drives is brought to rest and disarmed, which may take seconds.
+  ~RobotCalls();
+  RobotCalls(const RobotCalls&) = delete;
+  RobotCalls& operator=(const RobotCalls&) = delete;
+
+  /// Whether the call is one of these: "robot/...".
+  static bool is_named(std::string_view call) { return call.starts_with("robot/"); }
+  /// The answer to robot/ports, of which the list may take half a second: for callers that ask it in another thread.
+  static nlohmann::json ports_answer(const RobotPorts& ports);
+
+  nlohmann::json answer(Page page, const std::string& call, const nlohmann::json& question);
+
+  /// Lets the link work for this time, or until something has come, and tells what is due. The time is that of the robot's link: a
+  /// simulated robot moves on by this much, and nobody waits.
+  void step(microseconds most);
+
+  /// The page has gone: what it watched ends, and a robot that it drives is stopped and disarmed.
+  void leave(Page page);
+
+  /// The clock of a simulated robot, which passes only in step() and in requests; none for any other.
+  std::optional<microseconds> simulated_now() const;
+  bool is_open() const { return robot_ != nullptr; }
+  /// Whether step() waits for the robot. If not, whoever calls it again and again has to wait by other means.
+  bool waits_for_robot() const {
+    return robot_ && !robot_->is_simulated() && robot_->link().session() != nullptr;
+  }
+  /// Whether a velocity or a path may be under way, so that step() should be called at least every few milliseconds.
+  bool armed() const { return driving_.armed(); }
+
+ private:
+  using Answer = nlohmann::json;
+  static const std::map<std::string_view, Answer (RobotCalls::*)(Page, const nlohmann::json&)>& calls();
+
+  Answer ports(Page page, const nlohmann::json& question);
+  Answer open(Page page, const nlohmann::json& question);
+  Answer close(Page page, const nlohmann::json& question);
+  Answer watch(Page page, const nlohmann::json& question);
+  Answer arm(Page page, const nlohmann::json& question);
+  Answer disarm(Page page, const nlohmann::json& question);
+  Answer stop(Page page, const nlohmann::json& question);
+  Answer pause(Page page, const nlohmann::json& question);
+  Answer resume(Page page, const nlohmann::json& question);
+  Answer emergency_stop(Page page, const nlohmann::json& question);
+  Answer clear_faults(Page page, const nlohmann::json& question);
+  Answer drive(Page page, const nlohmann::json& question);
+  Answer path(Page page, const nlohmann::json& question);
+  Answer parameters(Page page, const nlohmann::json& question);
+  Answer stage(Page page, const nlohmann::json& question);
+  Answer commit(Page page, const nlohmann::json& question);
+  Answer discard(Page page, const nlohmann::json& question);
+  Answer record(Page page, const nlohmann::json& question);
+
+  OpenedRobot& robot();
+  live::RobotSession& session() { return robot().required_session(); }
+  live::RobotSession& known_session();
+  Answer description(Page page);
+  void work(microseconds most);
+  void take_samples(live::RobotSession& session);
+  void take(const protocol::Telemetry& telemetry);
+  void lose(const Error& why);
+  void ask_for_telemetry();
+  void look_for_other_driver(live::RobotSession& session);
+  void report();
+  RobotState state() const;
+
+  RobotPorts ports_;
+  std::filesystem::path folder_;
+  Tell tell_;
+  std::unique_ptr<OpenedRobot> robot_;
+  DrivingCalls driving_;  // behind robot_, whose session it may use
+  ParameterCalls parameters_;
+  std::map<Page, SignalWatch> watches_;
+  std::optional<protocol::Telemetry> newest_;
+  std::optional<WatchedRecording> recording_;
+  std::string other_driver_;
+  microseconds look_at_{};  // for another program that drives
+  StateReport state_report_;
+};
+
+}  // namespace astro::page
