@@ -10,16 +10,14 @@
 #include <vector>
 
 #include "host/live/driver/middleware.hpp"
+#include "host/live/web/frame_queue.hpp"
 
 /// What a server offers to all its clients, and who is there. Ids count from 1 in the order in which things were added.
 namespace astro::foxglove {
 
-/// One message of one channel; all clients share it.
-struct Sample {
-  std::int64_t time_ns = 0;
-  Bytes payload;
-};
-using SharedSample = std::shared_ptr<const Sample>;
+// One message of one channel; all clients share it.
+using web::Sample;
+using web::SharedSample;
 
 /// A topic that the robot publishes.
 struct Channel {

@@ -1,64 +1,33 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include "host/live/foxglove/catalogue.hpp"
+#include "host/live/foxglove/server_messages.hpp"
+#include "host/live/web/frame_queue.hpp"
 
 namespace astro::foxglove {
 
-/// One WebSocket message: `head`, then the payload of `sample` if there is one.
-struct Frame {
-  bool is_text = false;
-  std::string head;
-  SharedSample sample;
-  std::uint32_t subscription = 0;  // of a sample
-
-  std::size_t size() const { return head.size() + (sample ? sample->payload.size() : 0); }
-};
-
-/// What waits to be sent to one client. Control messages (answers, lists, latched topics) go first and are never dropped; of
-/// data the oldest is dropped when more waits than fits.
-///
-/// Bounds  data: 4 MiB or 16384 messages, about a second of a robot's fastest telemetry: a browser may stall for so long, and
-///         older data is of no use to somebody who watches. Control messages: 4 MiB or 4096; beyond that the client must be
-///         disconnected.
-class ClientQueue {
+/// What waits to be sent to one client: answers and lists as texts, messages of topics with what the protocol puts before them.
+class ClientQueue : public web::FrameQueue {
  public:
-  static constexpr std::size_t kMostData = 16384, kMostDataBytes = 4 << 20;
-  static constexpr std::size_t kMostControl = 4096, kMostControlBytes = 4 << 20;
-
   void push_text(std::string text) { push_control({true, std::move(text), nullptr, 0}); }
   void push_binary(std::string bytes) { push_control({false, std::move(bytes), nullptr, 0}); }
   /// Queues a sample of a latched topic, as a control message.
-  void push_latched(std::uint32_t subscription, SharedSample sample);
-  void push_data(std::uint32_t subscription, SharedSample sample);
-
-  /// What is to be sent next; nothing if nothing waits.
-  std::optional<Frame> pop();
-  /// Removes what waits for a subscription: a client may give its number to another channel.
-  void forget(std::uint32_t subscription);
-
-  bool overflowed() const { return overflowed_; }
-  bool empty() const { return control_.empty() && data_.empty(); }
-  /// The number of data messages that were dropped since the start.
-  std::uint64_t dropped() const { return dropped_; }
+  void push_latched(std::uint32_t subscription, SharedSample sample) {
+    push_control(frame_of(subscription, std::move(sample)));
+  }
+  void push_data(std::uint32_t subscription, SharedSample sample) {
+    FrameQueue::push_data(frame_of(subscription, std::move(sample)));
+  }
 
  private:
-  struct Waiting {
-    std::uint32_t subscription;
-    SharedSample sample;
-  };
-  void push_control(Frame frame);
-  void drop_oldest();
-
-  std::deque<Frame> control_;
-  std::deque<Waiting> data_;
-  std::size_t control_bytes_ = 0, data_bytes_ = 0;
-  std::uint64_t dropped_ = 0;
-  bool overflowed_ = false;
+  static web::Frame frame_of(std::uint32_t subscription, SharedSample sample) {
+    std::string head = data_header(subscription, sample->time_ns);
+    return {false, std::move(head), std::move(sample), subscription};
+  }
 };
 
 }  // namespace astro::foxglove

@@ -17,7 +17,7 @@ namespace astro::foxglove {
 
 struct Settings {
   std::string name;  // of the robot, for people
-  Address address{};
+  Address address{"127.0.0.1", 8765};
   std::vector<std::string> origins{};  // of web pages that may connect, besides the usual ones (origin.hpp)
   /// Whether viewers may publish, call any service and set parameters. Otherwise they may look, and call `always_served`.
   bool allow_commands = false;

@@ -6,23 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "host/live/foxglove/foxglove_site.hpp"
 #include "host/live/foxglove/hub.hpp"
+#include "host/live/web/server.hpp"
 
 namespace astro::foxglove {
 
-/// Values: the number of the port.
-enum class ServerProblem { port_taken };
+using web::Address;
+using web::ServerProblem;
+using web::ViewerProblem;
 
-/// Why a viewer is disconnected. Values: its address.
-enum class ViewerProblem { idle, stuck };
-
-struct Address {
-  std::string ip = "127.0.0.1";  // of one of this computer's networks; "0.0.0.0" or "::": all
-  std::uint16_t port = 8765;     // 0: any that is free
-};
-
-/// Serves a hub on the network. It has its own thread, so that viewers are served whatever the robot's thread does, and the
-/// robot's thread does not wait, whatever a viewer does.
+/// Serves a hub on the network, in a thread of its own (host/live/web/server.hpp).
 class Server {
  public:
   /// Work on the hub, done in the server's thread.
@@ -31,25 +25,22 @@ class Server {
   /// Listens, but serves nobody yet. `origins`: see origin.hpp. Throws astro::Error that names the address if it cannot be had.
   Server(const Address& address, std::vector<std::string> origins, std::unique_ptr<Hub> hub,
          RequestSink sink);
-  /// Says goodbye to all clients; waits no longer than a fifth of a second for that.
-  ~Server();
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
 
-  std::uint16_t port() const;
-
-  /// Begins to serve; a second call does nothing. Tasks that were posted before come first.
-  void start();
-  /// May be called from any thread. Tasks are done in their order.
-  void post(Task task);
-  /// The same for data: it is done with the next post() or flush(), so that many messages wake the other thread once; and it is left
-  /// out when thousands of tasks wait already, because the computer is too busy.
-  void post_data(Task task);
-  void flush();
+  std::uint16_t port() const { return server_.port(); }
+  /// As those of web::Server.
+  void start() { server_.start(); }
+  void post(Task task) { server_.post(on_hub(std::move(task))); }
+  void post_data(Task task) { server_.post_data(on_hub(std::move(task))); }
+  void flush() { server_.flush(); }
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  web::Server::Task on_hub(Task task) {
+    return [hub = hub_.get(), task = std::move(task)] { task(*hub); };
+  }
+
+  std::unique_ptr<Hub> hub_;
+  FoxgloveSite site_;
+  web::Server server_;  // last: its thread uses the others
 };
 
 }  // namespace astro::foxglove

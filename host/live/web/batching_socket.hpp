@@ -13,7 +13,7 @@
 
 #include "host/base/bytes.hpp"
 
-namespace astro::foxglove {
+namespace astro::web {
 
 /// A TCP socket, as a layer below Boost.Beast, that takes what is written at once and sends everything that has gathered with one
 /// system call. A robot's telemetry is many small messages, of which each would otherwise cost a call and a wake-up.
@@ -137,4 +137,4 @@ void async_teardown(boost::beast::role_type, BatchingSocket& socket, Handler&& h
                                                                             boost::system::error_code{}));
 }
 
-}  // namespace astro::foxglove
+}  // namespace astro::web
