@@ -49,6 +49,7 @@ set(ASTRO_LAYERS
   "host/lidar                   : host/base host/calibration/motion"
   "host/live/dds                : host/base"
   "host/live/driver             : common host/base host/calibration/likelihood host/calibration/motion host/formats/cdr host/formats/messages host/recording host/robot/client host/robot/motion host/robot/parameters"
+  "host/live/dashboard          : host/base host/live/web host/page/calls host/page/robot"
   "host/live/foxglove           : host/base host/formats/cdr host/formats/messages host/live/driver host/live/web"
   "host/live/web                : host/base"
   "host/live/ros2               : host/formats/cdr host/formats/messages host/live/dds host/live/driver"
@@ -102,7 +103,7 @@ set(ASTRO_OUTSIDE
   "fmt/                     : host"
   "bzlib.h lz4frame.h zstd.h : host/formats/files"
   "openssl/                 : host/formats/cdr"
-  "nlohmann/                : host/commands host/experiment host/import/drives host/live/foxglove host/page host/report host/simulation/study host/wall"
+  "nlohmann/                : host/commands host/experiment host/import/drives host/live/dashboard host/live/foxglove host/page host/report host/simulation/study host/wall"
   "sqlite3.h                : host/formats/files"
   "tinyxml2.h               : host/import/wheels"
   "toml++/                  : host/experiment host/simulation/room"
@@ -115,11 +116,11 @@ set(ASTRO_OUTSIDE
   "netinet/                 : host/base"
   "csignal                  : host/console"
   "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/programs host/recording host/robot host/simulation host/truth host/wall"
-  "atomic condition_variable future mutex shared_mutex stop_token thread : host/base host/commands host/console host/live/dds host/live/foxglove host/live/web host/robot/client host/robot/port host/robot/sharing host/simulation/server host/truth/live"
+  "atomic condition_variable future mutex shared_mutex stop_token thread : host/base host/commands host/console host/live/dashboard host/live/dds host/live/foxglove host/live/web host/robot/client host/robot/port host/robot/sharing host/simulation/server host/truth/live"
 
   # Files, and what is printed.
-  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/film host/formats host/import host/live/web host/page host/programs host/recording host/report host/robot/port host/simulation/room host/simulation/server host/truth/files host/truth/live host/wall"
-  "fstream                  : host/base host/emulator/core host/film/picture host/formats/files host/robot/port host/robot/sharing host/simulation/server"
+  "filesystem               : host/base host/commands host/console host/emulator host/experiment host/film host/formats host/import host/live/dashboard host/live/web host/page host/programs host/recording host/report host/robot/port host/simulation/room host/simulation/server host/truth/files host/truth/live host/wall"
+  "fstream                  : host/base host/emulator/core host/film/picture host/formats/files host/live/dashboard host/robot/port host/robot/sharing host/simulation/server"
   "iostream                 : host/commands"
   "cstdio                   : host/commands host/console host/programs"
 )

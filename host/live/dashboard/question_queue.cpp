@@ -1,0 +1,62 @@
+#include "host/live/dashboard/question_queue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+namespace astro::dashboard {
+namespace {
+
+bool stops(std::string_view call) {
+  constexpr std::array<std::string_view, 4> kStops{kPageGone, "robot/stop", "robot/emergency_stop",
+                                                   "robot/disarm"};
+  return std::ranges::find(kStops, call) != kStops.end();
+}
+
+bool moves(std::string_view call) {
+  constexpr std::array<std::string_view, 4> kMoves{"robot/arm", "robot/drive", "robot/path", "robot/resume"};
+  return std::ranges::find(kMoves, call) != kMoves.end();
+}
+
+}  // namespace
+
+std::vector<Question> QuestionQueue::push(Question question) {
+  const std::lock_guard lock(mutex_);
+  std::vector<Question> refused;
+  if (stops(question.call)) {
+    // A page that has gone stops the robot only if it drives, so others' requests stay.
+    const bool of_all = question.call != kPageGone;
+    const auto stays = std::stable_partition(others_.begin(), others_.end(), [&](const Question& each) {
+      return !moves(each.call) || (!of_all && each.page != question.page);
+    });
+    std::move(stays, others_.end(), std::back_inserter(refused));
+    others_.erase(stays, others_.end());
+    urgent_.push_back(std::move(question));
+  } else if (std::ranges::count(others_, question.page, &Question::page) >=
+             static_cast<std::ptrdiff_t>(kMost)) {
+    refused.push_back(std::move(question));
+  } else {
+    others_.push_back(std::move(question));
+  }
+  came_.notify_one();
+  return refused;
+}
+
+std::optional<Question> QuestionQueue::pop() {
+  const std::lock_guard lock(mutex_);
+  for (std::deque<Question>* each : {&urgent_, &others_}) {
+    if (each->empty()) continue;
+    Question first = std::move(each->front());
+    each->pop_front();
+    return first;
+  }
+  return std::nullopt;
+}
+
+void QuestionQueue::wait(std::chrono::microseconds timeout) {
+  std::unique_lock lock(mutex_);
+  came_.wait_for(lock, timeout, [this] { return !urgent_.empty() || !others_.empty(); });
+}
+
+}  // namespace astro::dashboard
