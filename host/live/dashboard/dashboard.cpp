@@ -37,7 +37,7 @@ class Dashboard::Impl {
  public:
   explicit Impl(const Settings& settings)
       : notice_(settings.notice),
-        site_(required_page(settings.page), token_, files_,
+        site_(required_page(settings.page), settings.page_timeout, token_, files_,
               {[this](Question question) { ask(std::move(question)); }, settings.notice}),
         server_(std::in_place, settings.address, site_),
         calls_(settings.ports, files_.folder(), delivery()),

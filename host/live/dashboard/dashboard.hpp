@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,6 +19,8 @@ struct Settings {
   page::RobotPorts ports{};    // `list` and `open` are called in two threads
   std::string port{};          // of the robot that is opened at the start; "": the pages choose
   std::function<void(const Remark&)> notice = [](const Remark&) {};  // called in any thread
+  /// A page that answers no ping for so long has gone, and a robot that it drives is stopped.
+  std::chrono::seconds page_timeout{4};
 };
 
 /// Serves the page, and a robot to it, until it is destroyed; then a robot that a page drives is at rest and disarmed.

@@ -40,7 +40,7 @@ bool is_cross_site(const web::RequestHead& request) {
 web::Limits DashboardSite::limits() const {
   web::Limits limits;
   limits.body_bytes = SessionFiles::kMostBytes;
-  limits.idle_s = 4;  // a page that answers no ping for so long has gone, and the robot is stopped
+  limits.idle_s = static_cast<int>(page_timeout_.count());
   return limits;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -32,8 +33,13 @@ class DashboardSite : public web::Site {
     std::function<void(const Remark&)> notice;
   };
 
-  DashboardSite(std::filesystem::path page, const Token& token, const SessionFiles& files, Hooks hooks)
-      : static_files_(std::move(page)), token_(token), files_(files), hooks_(std::move(hooks)) {}
+  DashboardSite(std::filesystem::path page, std::chrono::seconds page_timeout, const Token& token,
+                const SessionFiles& files, Hooks hooks)
+      : static_files_(std::move(page)),
+        page_timeout_(page_timeout),
+        token_(token),
+        files_(files),
+        hooks_(std::move(hooks)) {}
 
   web::Limits limits() const override;
   web::Decision decide(const web::RequestHead& request) override;
@@ -50,6 +56,7 @@ class DashboardSite : public web::Site {
   void report_refusal(const std::string& origin);
 
   StaticFiles static_files_;
+  std::chrono::seconds page_timeout_;
   const Token& token_;
   const SessionFiles& files_;
   Hooks hooks_;

@@ -34,6 +34,7 @@ class Served : public testing::Test {
     std::ofstream(folder_.path() / "index.html") << "the page";
     Settings settings;
     settings.page = folder_.path();
+    settings.page_timeout = std::chrono::hours(1);  // these pages answer pings only while they read
     dashboard_.emplace(settings);
   }
 
