@@ -1,5 +1,5 @@
 # What `cmake --install` puts where, and the Debian package of it: the program with its man pages and completions, which it
-# writes itself, udev rules, units of systemd, and the firmware images that are built. The emulator stays out, because it is
+# writes itself, udev rules, units of systemd, and the firmware images and the page that are built. The emulator stays out, because it is
 # for tests.
 include_guard(GLOBAL)
 include(GNUInstallDirs)
@@ -11,6 +11,7 @@ install(FILES ${files}/astrolabe-ros2@.service ${files}/astrolabe-serve@.service
 install(FILES ${files}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${CMAKE_SOURCE_DIR}/build/teensy40/bin/astrolabe-teensy40.hex
   ${CMAKE_SOURCE_DIR}/build/rp2040/bin/astrolabe-rp2040.uf2 DESTINATION share/astrolabe/firmware OPTIONAL)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/build/page/ DESTINATION share/astrolabe/page OPTIONAL)
 install(CODE "set(program $<TARGET_FILE:astrolabe>)
   set(changelog ${files}/changelog)
   set(made ${CMAKE_BINARY_DIR}/package_texts)")

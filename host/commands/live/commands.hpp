@@ -2,15 +2,18 @@
 
 #include "host/console/command_line.hpp"
 
-/// The subcommands that publish a robot as ROS 2 messages, to ROS 2 nodes and to viewers. Each is a file named after it.
+/// The subcommands that show a robot to others while it runs: in a web page, as ROS 2 messages to nodes and to viewers. Each is a
+/// file named after it.
 ///
 /// Output  what happens to the robot's link on stderr.
-/// Errors  as host/commands/robot/commands.hpp. Ctrl-C ends with 130; a robot that was armed by the node is at rest then.
+/// Errors  as host/commands/robot/commands.hpp. Ctrl-C ends with 130, and the dashboard with 0; a robot that was armed
+///         by the node or a page is at rest then.
 namespace astro::commands {
 
 /// What launch files of ROS 2 put before their arguments, which end with -- or the command line.
 inline constexpr const char* kRosArguments = "--ros-args";
 
+void add_dashboard(console::Command app);
 void add_ros2(console::Command app);
 void add_serve(console::Command app);
 

@@ -66,7 +66,7 @@ void say_foreign_type(const std::string& topic, const std::string& type) {
 }
 
 void run(Ros2Options& options) {
-  if (options.viewers.wanted) take_viewers_port(options.driver.connection.port, options.viewers);
+  if (options.viewers.wanted) take_listen_port(options.driver.connection.port, options.viewers);
   dds::DiscoveryWishes wishes;
   if (options.domain >= 0) wishes.domain = options.domain;
   if (!options.range.empty()) wishes.range = dds::range_in(options.range);

@@ -84,7 +84,7 @@ struct ServeOptions {
 
 void run(ServeOptions& options) {
   if (!options.viewers.wanted) throw console::WrongUsage("serve what? --foxglove serves viewers");
-  take_viewers_port(options.driver.connection.port, options.viewers);
+  take_listen_port(options.driver.connection.port, options.viewers);
   ConnectionOptions& connection = options.driver.connection;
   if (connection.port.empty() && options.truth.source == "sim") connect(connection);  // finds the only robot
   std::unique_ptr<truth::Source> source;

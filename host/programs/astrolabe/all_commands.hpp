@@ -26,7 +26,7 @@ inline void add_all(console::Command app) {
            {"Calibrate",
             {add_umbmark, add_calibrate, add_upload, add_record, add_compare, add_report, add_plan}},
            {"Your data", {add_inspect, add_export, add_truth, add_tags}},
-           {"Live", {add_ros2, add_serve}},
+           {"Live", {add_dashboard, add_ros2, add_serve}},
            {"Simulate", {add_sim, add_study}}})
     app.under(heading.name, [&] {
       for (const Add add : heading.commands) add(app);

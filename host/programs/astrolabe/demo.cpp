@@ -76,6 +76,7 @@ void demonstrate(const DemoOptions& options, const std::function<int(const std::
   fmt::print("\nHow the factors were found, from the drives before:\n");
   if (!carry_out(run, {"calibrate", "runs", (experiment / "before").string()})) return;
   fmt::print("\nThe report with both: {}\n", (experiment / "report.html").string());
+  fmt::print("The same in a browser, with a robot to drive: astrolabe dashboard\n");
 }
 
 }  // namespace

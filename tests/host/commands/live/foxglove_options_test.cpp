@@ -15,19 +15,19 @@ std::string announcement(const std::string& listen, bool allow_commands) {
   FoxgloveOptions options;
   options.listen = listen;
   options.allow_commands = allow_commands;
-  return foxglove_announcement(options, foxglove_address_in(listen).port);
+  return foxglove_announcement(options, listen_address_in(listen).port);
 }
 
 TEST(FoxgloveOptions, AnAddressIsAPortOrHasOne) {
-  EXPECT_EQ(foxglove_address_in("8765").ip, "127.0.0.1");
-  EXPECT_EQ(foxglove_address_in("8766").port, 8766);
-  EXPECT_EQ(foxglove_address_in("0.0.0.0:80").ip, "0.0.0.0");
-  EXPECT_EQ(foxglove_address_in("[::1]:80").ip, "::1");
-  EXPECT_EQ(foxglove_address_in("[::1]:80").port, 80);
-  EXPECT_EQ(foxglove_address_in("localhost:80").ip, "127.0.0.1");
-  EXPECT_EQ(foxglove_address_in("localhost:80").port, 80);
+  EXPECT_EQ(listen_address_in("8765").ip, "127.0.0.1");
+  EXPECT_EQ(listen_address_in("8766").port, 8766);
+  EXPECT_EQ(listen_address_in("0.0.0.0:80").ip, "0.0.0.0");
+  EXPECT_EQ(listen_address_in("[::1]:80").ip, "::1");
+  EXPECT_EQ(listen_address_in("[::1]:80").port, 80);
+  EXPECT_EQ(listen_address_in("localhost:80").ip, "127.0.0.1");
+  EXPECT_EQ(listen_address_in("localhost:80").port, 80);
   const auto said_of = [](const std::string& word) {
-    return support::told_by([&] { foxglove_address_in(word); }).sentence;
+    return support::told_by([&] { listen_address_in(word); }).sentence;
   };
   for (const std::string wrong : {"", "65536", "-1", "localhost", "localhost:", "127.0.0.1", "80x"})
     EXPECT_EQ(said_of(wrong), "'" + wrong + "' is not PORT or ADDRESS:PORT, with a port up to 65535");
