@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { type Backend, Refusal } from "./backend";
+import { type Backend, Refusal, sentence_of } from "./backend";
 import { Columns } from "./columns";
 import { bag_of, bodies_of, type Calibrated, type Drive, type Found, type Inspected, type Problem, wheels_of } from "./drive_files";
 import { FactorTable } from "./factors";
@@ -10,7 +10,7 @@ import { FieldInput, fields_of, id_of, kLabels, kSizes, type Statements } from "
 const problem_of = (error: unknown): Problem =>
   error instanceof Refusal
     ? { sentence: error.message, remedies: error.remedies }
-    : { sentence: error instanceof Error ? error.message : String(error), remedies: [] };
+    : { sentence: sentence_of(error), remedies: [] };
 
 const kLooking = "Looking at the files";
 
@@ -235,7 +235,7 @@ export function DataPage({ backend }: { backend: Backend }) {
     // Not at each digit that somebody types.
     const soon = setTimeout(() => {
       backend
-        .ask<Found>("inspect", question, () => {})
+        .ask<Found>("inspect", question)
         .then((answer) => mine === newest.current && set_found(answer))
         .catch((error) => mine === newest.current && set_problem(problem_of(error)))
         .finally(() => mine === newest.current && set_busy(""));
@@ -253,7 +253,7 @@ export function DataPage({ backend }: { backend: Backend }) {
     outdate();
     set_busy("Calibrating");
     try {
-      const answer = await backend.ask<Calibrated>("calibrate", { drives, ...stated, ...(robot ? { robot } : {}) }, () => {});
+      const answer = await backend.ask<Calibrated>("calibrate", { drives, ...stated, ...(robot ? { robot } : {}) });
       set_result({ found: answer, report: await (await backend.file(answer.report)).text() });
     } catch (error) {
       set_problem(problem_of(error));

@@ -3,11 +3,11 @@ import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
+import { chosen_backends } from "./backends";
 import { DataPage } from "./data_page";
 import { TryPage } from "./try_page";
-import { WasmBackend } from "./wasm_backend";
 
-const backend = new WasmBackend();
+const { calls: backend } = chosen_backends();
 
 const kPages = [
   { at: "#try", name: "Try", title: "Try it on a simulated robot" },

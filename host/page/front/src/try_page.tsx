@@ -1,38 +1,9 @@
 import { useRef, useState } from "preact/hooks";
-import type { Backend, Event_ } from "./backend";
+import { type Backend, type Event_, sentence_of } from "./backend";
+import { kChoices, kUsual, question_of, Slider } from "./choices";
 import { type Factors, FactorTable } from "./factors";
 import { save } from "./saving";
 import { type Way, Ways } from "./ways";
-
-/** What a person chooses about the simulated robot, in the units that people see. */
-interface Choice {
-  name: string;
-  label: string;
-  unit: string;
-  least: number;
-  most: number;
-  step: number;
-  usual: number;
-  hint: string;
-}
-
-const kChoices: Choice[] = [
-  { name: "E_d", label: "Right wheel larger by", unit: "%", least: -2, most: 2, step: 0.01, usual: 0.42, hint: "makes straight lines bend" },
-  { name: "E_b", label: "Wheelbase larger by", unit: "%", least: -3, most: 3, step: 0.01, usual: -0.48, hint: "makes turns too far or too short" },
-  { name: "S", label: "Both wheels larger by", unit: "%", least: -2, most: 2, step: 0.01, usual: 0, hint: "makes ways too long or too short" },
-  { name: "e", label: "Gentle arcs turn otherwise by (e)", unit: "%", least: 0, most: 10, step: 0.1, usual: 0, hint: "what wide or soft tyres do" },
-  { name: "slip", label: "Slip", unit: "times", least: 0, most: 30, step: 0.5, usual: 1, hint: "1 is that of a robot of 4.7 kg on a hall's floor" },
-  { name: "seed", label: "Which robot (seed)", unit: "", least: 1, most: 999, step: 1, usual: 1, hint: "the same number drives the same again" },
-];
-
-const question_of = (chosen: Record<string, number>) => ({
-  E_d: 1 + chosen.E_d! / 100,
-  E_b: 1 + chosen.E_b! / 100,
-  S: 1 + chosen.S! / 100,
-  e: chosen.e! / 100,
-  slip: chosen.slip,
-  seed: chosen.seed,
-});
 
 interface Answer {
   results: {
@@ -48,30 +19,9 @@ interface Answer {
 
 type State = "ready" | "driving" | "done" | "refused";
 
-function Slider(props: { choice: Choice; value: number; disabled: boolean; set: (value: number) => void }) {
-  const { choice } = props;
-  const id = `choice-${choice.name}`;
-  const change = (event: { currentTarget: HTMLInputElement }) => props.set(Number(event.currentTarget.value));
-  return (
-    <div class="choice">
-      <label for={id}>
-        {choice.label}
-        <small>{choice.hint}</small>
-      </label>
-      <input id={id} type="range" min={choice.least} max={choice.most} step={choice.step} value={props.value}
-        disabled={props.disabled} onInput={change} />
-      <span class="entered">
-        <input type="number" aria-label={`${choice.label}, ${choice.unit}`} min={choice.least} max={choice.most} step={choice.step}
-          value={props.value} disabled={props.disabled} onChange={change} />
-        {choice.unit}
-      </span>
-    </div>
-  );
-}
-
 /** A simulated robot drives squares as one watches, is calibrated, and drives them again. */
 export function TryPage({ backend }: { backend: Backend }) {
-  const [chosen, choose] = useState(Object.fromEntries(kChoices.map((each) => [each.name, each.usual])));
+  const [chosen, choose] = useState(kUsual);
   const [state, enter] = useState<State>("ready");
   const [progress, show_progress] = useState({ title: "", number: 0, total: 0 });
   const [answer, take] = useState<Answer | null>(null);
@@ -114,7 +64,7 @@ export function TryPage({ backend }: { backend: Backend }) {
       set_report(await (await backend.file(found.report)).text());
       enter("done");
     } catch (error) {
-      set_problem(error instanceof Error ? error.message : String(error));
+      set_problem(sentence_of(error));
       enter("refused");
     }
   };

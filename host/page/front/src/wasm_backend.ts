@@ -1,53 +1,46 @@
-import { type Backend, type Event_, Refusal } from "./backend";
+import type { Backend, Event_ } from "./backend";
+import { OpenQuestions } from "./open_questions";
 import type { FromWorker, ToWorker } from "./wasm_messages";
-
-interface Waiting {
-  told: (event: Event_) => void;
-  resolve: (value: unknown) => void;
-  reject: (why: Error) => void;
-}
 
 /** The module in a worker of this page. Nothing leaves the computer. */
 export class WasmBackend implements Backend {
-  private worker = new Worker(new URL("./wasm_worker.ts", import.meta.url), { type: "module" });
-  private waiting = new Map<number, Waiting>();
-  private last = 0;
+  readonly has_ports = false;
+  private worker: Worker | undefined;
+  private questions = new OpenQuestions();
 
-  constructor() {
+  /** Loads the module, which the first question would do, too. */
+  start(): Worker {
+    if (this.worker) return this.worker;
+    this.worker = new Worker(new URL("./wasm_worker.ts", import.meta.url), { type: "module" });
     this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.take(data);
-    this.worker.onerror = (event) => {
-      for (const each of this.waiting.values())
-        each.reject(new Refusal(`the module cannot be loaded: ${event.message ?? "it is not beside this page"}`));
-      this.waiting.clear();
-    };
+    this.worker.onerror = (event) =>
+      this.questions.refuse_all(`the module cannot be loaded: ${event.message ?? "it is not beside this page"}`);
+    return this.worker;
   }
 
-  ask<Answer>(call: string, question: unknown, told: (event: Event_) => void): Promise<Answer> {
-    return this.send<Answer>({ id: ++this.last, kind: "ask", call, question }, told);
+  ask<Answer>(call: string, question: unknown, told?: (event: Event_) => void): Promise<Answer> {
+    return this.questions.ask<Answer>((id) => this.send({ id, kind: "ask", call, question }), told);
+  }
+
+  listen(told: (event: Event_) => void) {
+    return this.questions.listen(told);
   }
 
   async file(path: string): Promise<Blob> {
-    return new Blob([await this.send<Uint8Array<ArrayBuffer>>({ id: ++this.last, kind: "file", path }, () => {})]);
+    return new Blob([await this.questions.ask<Uint8Array<ArrayBuffer>>((id) => this.send({ id, kind: "file", path }))]);
   }
 
   async put(file: File): Promise<void> {
-    await this.send<null>({ id: ++this.last, kind: "put", file }, () => {});
+    await this.questions.ask<null>((id) => this.send({ id, kind: "put", file }));
   }
 
-  private send<Value>(message: ToWorker, told: (event: Event_) => void): Promise<Value> {
-    return new Promise<Value>((resolve, reject) => {
-      this.waiting.set(message.id, { told, resolve: resolve as (value: unknown) => void, reject });
-      this.worker.postMessage(message);
-    });
+  private send(message: ToWorker) {
+    this.start().postMessage(message);
   }
 
   private take(message: FromWorker) {
-    const waiting = this.waiting.get(message.id);
-    if (!waiting) return;
-    if (message.kind === "event") return waiting.told(message.event);
-    this.waiting.delete(message.id);
-    if (message.kind === "answer") waiting.resolve(message.answer);
-    else if (message.kind === "file") waiting.resolve(message.bytes);
-    else waiting.reject(new Refusal(message.sentence, message.remedies));
+    if (message.kind === "event") this.questions.tell(message.id, message.event);
+    else if (message.kind === "answer") this.questions.answer(message.id, message.answer);
+    else this.questions.refuse(message.id, message.sentence, message.remedies);
   }
 }

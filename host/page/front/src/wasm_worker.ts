@@ -1,3 +1,4 @@
+import { sentence_of } from "./backend";
 import type { FromWorker, ToWorker } from "./wasm_messages";
 
 /** The module's surface (host/page/wasm/main.cpp). */
@@ -7,6 +8,7 @@ interface Module {
 }
 
 const kFolder = "/files-of-the-page";
+const kStep_ms = 20;
 
 async function load(): Promise<Module> {
   const address = new URL(/* @vite-ignore */ "../astrolabe.mjs", import.meta.url).href;
@@ -27,14 +29,32 @@ async function bytes_of(file: File): Promise<Uint8Array> {
   }
 }
 
-const sentence_of = (error: unknown) => (error instanceof Error ? error.message : String(error));
+interface Answered {
+  result?: unknown;
+  error?: { sentence: string; remedies: string[] };
+}
+
+/** What a robot does belongs to no question, whichever is being answered when it does it. */
+function ask(module: Module, question_id: number, call: string, question: unknown): Answered {
+  const id = call.startsWith("robot/") ? 0 : question_id;
+  return JSON.parse(module.answer(call, JSON.stringify(question), (event) => post({ id, kind: "event", event: JSON.parse(event) }))) as Answered;
+}
+
+let clock = 0;
+
+/** A simulated robot's time passes only when somebody asks for it. */
+function let_time_pass(module: Module) {
+  clock ||= setInterval(() => {
+    ask(module, 0, "robot/step", { now_s: performance.now() / 1000 });
+  }, kStep_ms) as unknown as number;
+}
 
 onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   const { id } = data;
   try {
     const module = await loading;
     if (data.kind === "file") {
-      post({ id, kind: "file", bytes: module.FS.readFile(`${kFolder}/${data.path}`) });
+      post({ id, kind: "answer", answer: module.FS.readFile(`${kFolder}/${data.path}`) });
       return;
     }
     if (data.kind === "put") {
@@ -42,13 +62,10 @@ onmessage = async ({ data }: MessageEvent<ToWorker>) => {
       post({ id, kind: "answer", answer: null });
       return;
     }
-    const answer = JSON.parse(
-      module.answer(data.call, JSON.stringify(data.question), (event) =>
-        post({ id, kind: "event", event: JSON.parse(event) }),
-      ),
-    );
-    if (answer.error) post({ id, kind: "refusal", ...answer.error });
-    else post({ id, kind: "answer", answer: answer.result });
+    const { result, error } = ask(module, id, data.call, data.question);
+    if (error) post({ id, kind: "refusal", ...error });
+    else post({ id, kind: "answer", answer: result });
+    if (data.call === "robot/open") let_time_pass(module);
   } catch (error) {
     post({ id, kind: "refusal", sentence: sentence_of(error), remedies: [] });
   }
