@@ -5,13 +5,20 @@ import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { chosen_backends } from "./backends";
 import { DataPage } from "./data_page";
+import { LivePage } from "./live/live_page";
+import { Robot } from "./live/robot";
+import { Strip } from "./live/strip";
 import { TryPage } from "./try_page";
 
-const { calls: backend } = chosen_backends();
+const { calls: backend, robot: reaches_robot } = chosen_backends();
+const robot = new Robot(reaches_robot);
+// A program that serves this page may have been told its robot, or another page may have chosen one.
+if (reaches_robot.has_ports) void robot.open_present();
 
 const kPages = [
   { at: "#try", name: "Try", title: "Try it on a simulated robot" },
   { at: "#data", name: "Your data", title: "Calibrate from your data" },
+  { at: "#live", name: "Live", title: "Watch and drive a robot" },
 ];
 const page_at = (hash: string) => kPages.find((each) => each.at === hash) ?? kPages[0]!;
 
@@ -46,12 +53,16 @@ function Page() {
           </ul>
         </nav>
       </header>
+      <Strip robot={robot} />
       <main class="container">
         <div hidden={page.at !== "#try"}>
           <TryPage backend={backend} />
         </div>
         <div hidden={page.at !== "#data"}>
           <DataPage backend={backend} />
+        </div>
+        <div hidden={page.at !== "#live"}>
+          <LivePage robot={robot} />
         </div>
       </main>
     </>
