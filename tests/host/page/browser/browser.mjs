@@ -25,10 +25,19 @@ export function serve({ isolated = false } = {}) {
   );
 }
 
-/** `use` on `wanted` in a new window, with the times at which it was opened. What the page complains of, and each request beyond its own server, is an error. */
+/** `use` on `wanted` of this page's own server, in a new window. */
 export async function in_browser(wanted, options, use) {
-  const { chromium } = library("playwright-core");
   const server = await serve(options);
+  try {
+    await in_window(server.address + wanted, options, use);
+  } finally {
+    server.end();
+  }
+}
+
+/** `use` on a new window, with the times at which it was opened. What the page complains of, and each request beyond its own server, is an error, unless `options.may_complain` holds for it. */
+export async function in_window(address, options, use) {
+  const { chromium } = library("playwright-core");
   const browser = await chromium.launch({
     executablePath: process.env.ASTROLABE_CHROMIUM ?? "/usr/bin/chromium",
     args: ["--no-sandbox", "--disable-dev-shm-usage"],
@@ -36,18 +45,18 @@ export async function in_browser(wanted, options, use) {
   try {
     const window = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
     const complaints = [];
-    window.on("pageerror", (error) => complaints.push(error.message));
-    window.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+    const complain = (text) => options.may_complain?.(text) || complaints.push(text);
+    window.on("pageerror", (error) => complain(error.message));
+    window.on("console", (message) => message.type() === "error" && complain(message.text()));
     window.on("request", (request) => {
-      if (/^https?:/.test(request.url()) && !request.url().startsWith(server.address))
-        complaints.push(`${request.url()} was asked for`);
+      if (/^https?:/.test(request.url()) && new URL(request.url()).origin !== new URL(address).origin)
+        complain(`${request.url()} was asked for`);
     });
     const begun = { at_ms: performance.now(), processor_s: processor_time_s() };
-    await window.goto(server.address + wanted);
+    await window.goto(address);
     await use(window, begun);
     if (complaints.length > 0) throw new Error(complaints.join("\n"));
   } finally {
     await browser.close();
-    server.end();
   }
 }

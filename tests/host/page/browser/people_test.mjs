@@ -4,6 +4,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { library } from "../module/places.mjs";
 import { in_browser } from "./browser.mjs";
+import { arm, button, in_mode, panel, simulate } from "./live.mjs";
 
 const axe = readFileSync(library.resolve("axe-core/axe.min.js"), "utf8");
 
@@ -55,6 +56,35 @@ const pages = {
       for (const closed of await page.locator("details:visible > summary").all()) await closed.click();
       await page.getByRole("button", { name: "Calibrate", exact: true }).click();
       await page.getByRole("alert").waitFor({ timeout: 60_000 });
+    },
+  ],
+  "Live, before a robot": [
+    "#live",
+    async (page) => {
+      await page.getByText("How it is built").click();
+    },
+  ],
+  "Live, with an armed robot": [
+    "#live",
+    async (page) => {
+      await simulate(page);
+      await arm(page);
+      await panel(page, "Scope").getByText("Signals:").click();
+    },
+  ],
+  "Live, with a fault, a staged parameter, one that was refused, and the question before a commit": [
+    "#live",
+    async (page) => {
+      await simulate(page);
+      await page.keyboard.press("Space");
+      await in_mode(page, "fault");
+      for (const [name, value] of [["kp", "1e9"], ["command_timeout", "0"]]) {
+        const field = panel(page, "Parameters").getByLabel(name, { exact: true });
+        await field.fill(value);
+        await field.press("Enter");
+      }
+      await button(page, "Commit").click();
+      await page.getByRole("dialog").waitFor();
     },
   ],
 };
