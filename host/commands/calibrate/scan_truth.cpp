@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/commands/base/advice.hpp"
-#include "host/commands/calibrate/scan_result.hpp"
+#include "host/commands/calibrate/scan_text.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/option_words.hpp"
 #include "host/commands/shared/robot_view.hpp"
@@ -18,6 +18,7 @@
 #include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
 #include "host/import/scans/carmen_log.hpp"
+#include "host/import/scans/scan_result.hpp"
 #include "host/import/scans/scanned_drives.hpp"
 #include "host/lidar/scan_calibration.hpp"
 
@@ -91,15 +92,15 @@ void calibrate_by_scans(const ImportOptions& options, const CalibrationOutput& o
   const lidar::ScanCalibration found =
       lidar::calibrate_by_scans(drives.drives, drives.loaded, options.mirrored == "yes");
   for (const Remark& remark : found.remarks) console::say(in_words(remark));
-  const bool better = verdict_of(found) == calibration::Verdict::better;
+  const bool better = importing::verdict_of(found) == calibration::Verdict::better;
   if (!output.file.empty()) {
-    experiment::write_parameter_file(output.file, parameter_file_of(found, drives.wheel));
+    experiment::write_parameter_file(output.file, importing::parameter_file_of(found, drives.wheel));
     console::say("written to " + output.file.string() +
                  (better ? "; load it with: astrolabe upload " + output.file.string()
                          : ", although it is not shown to be better than what the robot carries"));
   }
   if (output.json) {
-    print_json(to_json(found));
+    print_json(importing::to_json(found));
   } else {
     write(scan_result_text(found));
   }

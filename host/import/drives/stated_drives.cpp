@@ -115,15 +115,20 @@ ImportChoices choices_of(const StatedDrives& drives) {
   return choices;
 }
 
-ImportedDrives import_stated(const StatedDrives& drives) {
+std::vector<DriveFiles> drive_files(const StatedDrives& drives) {
   if (drives.wheels.size() != drives.truth.size())
     throw Error(fmt::format("there are {} files of wheels and {} of ground truth: each drive needs both",
                             drives.wheels.size(), drives.truth.size()),
                 StatementProblem::not_paired,
                 {std::to_string(drives.wheels.size()), std::to_string(drives.truth.size())});
-  refuse_unused_choices(drives);
   std::vector<DriveFiles> files;
   for (std::size_t i = 0; i < drives.wheels.size(); ++i) files.push_back({drives.wheels[i], drives.truth[i]});
+  return files;
+}
+
+ImportedDrives import_stated(const StatedDrives& drives) {
+  const std::vector<DriveFiles> files = drive_files(drives);
+  refuse_unused_choices(drives);
   return import_drives(files, choices_of(drives));
 }
 

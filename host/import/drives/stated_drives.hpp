@@ -48,6 +48,9 @@ std::optional<truth::Direction3> axis_named(std::string_view text);
 /// What import_drives takes. Throws astro::Error with a StatementProblem, and what read_robot_file throws.
 ImportChoices choices_of(const StatedDrives& drives);
 
+/// The two files of each drive. Throws astro::Error with StatementProblem::not_paired if one is without wheels or ground truth.
+std::vector<DriveFiles> drive_files(const StatedDrives& drives);
+
 /// Reads them. Throws astro::Error with StatementProblem::not_paired if one is without wheels or ground truth, UnusedChoice
 /// (unused_choice.hpp), and what choices_of and import_drives throw.
 ImportedDrives import_stated(const StatedDrives& drives);

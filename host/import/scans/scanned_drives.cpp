@@ -97,6 +97,11 @@ void read_runs(std::span<const DriveFiles> files, const ImportChoices& choices, 
 
 }  // namespace
 
+bool gives_scans(const fs::path& path, const StatedDrives& stated) {
+  if (!bag::is_bag(path)) return is_carmen_log(path);
+  return stated.truth_topic.empty() && stated.frames.empty() && has_scans_alone(path);
+}
+
 ScannedDrives scanned_drives(std::span<const DriveFiles> files, const ImportChoices& choices,
                              const std::string& scan_topic) {
   std::size_t bags = 0;

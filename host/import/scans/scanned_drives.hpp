@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "host/experiment/analysis/trajectories.hpp"
 #include "host/import/drives/import_drives.hpp"
+#include "host/import/drives/stated_drives.hpp"
 #include "host/lidar/scanned_drive.hpp"
 
 namespace astro::importing {
@@ -18,6 +20,10 @@ struct ScannedDrives {
   std::optional<experiment::NominalWheel> wheel;  // that c_R and c_L refer to; none if it is not known
   std::vector<Remark> remarks;                    // what was found, inferred or left out
 };
+
+/// Whether a file of ground truth is one of scans: a log of CARMEN, or a bag that has scans but no poses of a tracker, unless poses
+/// are named.
+bool gives_scans(const std::filesystem::path& path, const StatedDrives& stated);
 
 /// Each drive's truth is the file with its scans: a bag, or a log of CARMEN, which holds the wheels as well, so that both are the
 /// same file. Of a CARMEN log only the wheelbase has to be known, because it has odometry instead of wheels.

@@ -1,38 +1,23 @@
-#include "host/commands/calibrate/scan_result.hpp"
+#include "host/import/scans/scan_result.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
 
-#include "host/base/text/columns.hpp"
-#include "host/base/text/degrees.hpp"
 #include "host/calibration/likelihood/day_drift.hpp"
-#include "host/console/console.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
-#include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/experiment/files/factors_json.hpp"
 
-namespace astro::commands {
+namespace astro::importing {
 namespace {
 
 using calibration::Verdict;
 using lidar::ScanCalibration;
-
-double deviation(const ScanCalibration& found, int index) {
-  return std::sqrt(found.covariance(index, index));
-}
-
-double ratio(const calibration::WheelFactors& factors) { return factors.c_r / factors.c_l; }
-double scale(const calibration::WheelFactors& factors) { return (factors.c_r + factors.c_l) / 2; }
-
-/// Relative, of c_R / c_L.
-double ratio_error(const ScanCalibration& found) {
-  const Eigen::Vector3d by{1 / found.factors.c_r, -1 / found.factors.c_l, 0};
-  return std::sqrt(by.dot(found.covariance * by));
-}
 
 /// Of c_R, c_L, b and e: what these drives leave open, and what robots change by. Scans do not separate e from b.
 calibration::FactorCovariance covariance_another_day(const ScanCalibration& found) {
@@ -51,14 +36,19 @@ std::map<std::string, double> values_of(const calibration::WheelFactors& factors
           {"kappa0", factors.kappa0}};
 }
 
-/// "E_d and b", of a set as SGE.
-std::string factors_in(std::string_view set) {
-  std::vector<std::string> names;
-  for (const char one : set) names.emplace_back(one == 'S' ? "the scale" : one == 'G' ? "b / S" : "E_d");
-  return fmt::format("{}", fmt::join(names, ", "));
+}  // namespace
+
+double standard_error(const ScanCalibration& found, int index) {
+  return std::sqrt(found.covariance(index, index));
 }
 
-}  // namespace
+double mean_scale(const calibration::WheelFactors& factors) { return (factors.c_r + factors.c_l) / 2; }
+double diameter_ratio(const calibration::WheelFactors& factors) { return factors.c_r / factors.c_l; }
+
+double diameter_ratio_error(const ScanCalibration& found) {
+  const Eigen::Vector3d by{1 / found.factors.c_r, -1 / found.factors.c_l, 0};
+  return std::sqrt(by.dot(found.covariance * by));
+}
 
 Verdict verdict_of(const ScanCalibration& found) {
   if (!found.judged) return Verdict::undecided;
@@ -112,12 +102,12 @@ nlohmann::json to_json(const ScanCalibration& found) {
   const lidar::FactorChoice& choice = found.choice;
   nlohmann::json json = experiment::to_json(found.factors);
   json["method"] = "scan";
-  json["standard_errors"] = {{"c_R", deviation(found, 0)},
-                             {"c_L", deviation(found, 1)},
-                             {"b_m", deviation(found, 2)},
-                             {"E_d", ratio_error(found)}};
-  json["E_d"] = ratio(found.factors) / ratio(found.loaded);
-  json["scale"] = scale(found.factors);
+  json["standard_errors"] = {{"c_R", standard_error(found, 0)},
+                             {"c_L", standard_error(found, 1)},
+                             {"b_m", standard_error(found, 2)},
+                             {"E_d", diameter_ratio_error(found)}};
+  json["E_d"] = diameter_ratio(found.factors) / diameter_ratio(found.loaded);
+  json["scale"] = mean_scale(found.factors);
   json["loaded"] = experiment::to_json(found.loaded);
   json["scanner"] = {{"x_m", found.scanner.x_m},
                      {"y_m", found.scanner.y_m},
@@ -146,34 +136,4 @@ nlohmann::json to_json(const ScanCalibration& found) {
   return json;
 }
 
-std::string scan_result_text(const ScanCalibration& found) {
-  using experiment::with_error;
-  const calibration::WheelFactors &factors = found.factors, &loaded = found.loaded;
-  const std::vector<std::vector<std::string>> rows{
-      {"", "loaded", "found"},
-      {"c_R", fmt::format("{:.8f}", loaded.c_r), with_error(factors.c_r, deviation(found, 0), 8)},
-      {"c_L", fmt::format("{:.8f}", loaded.c_l), with_error(factors.c_l, deviation(found, 1), 8)},
-      {"b mm", fmt::format("{:.4f}", 1000 * loaded.b_m),
-       with_error(1000 * factors.b_m, 1000 * deviation(found, 2), 4)},
-      {"E_d", fmt::format("{:.7f}", ratio(loaded)),
-       with_error(ratio(factors), ratio(factors) * ratio_error(found), 7)},
-      {"S", fmt::format("{:.8f}", scale(loaded)), fmt::format("{:.8f}", scale(factors))}};
-  const lidar::ScanCounts& counts = found.counts;
-  std::string text = fmt::format(
-      "{} scans, of which {} pairs were matched. The scanner sits {:.0f} mm ahead and {:.0f} mm to the left "
-      "of "
-      "the middle (± {:.0f} and {:.0f} mm) and looks {:.2f} degrees to the left (± {:.2f}).",
-      counts.scans, counts.matched, 1000 * found.scanner.x_m, 1000 * found.scanner.y_m,
-      1000 * found.scanner_se.x_m, 1000 * found.scanner_se.y_m, degrees(wrapped_rad(found.scanner.theta_rad)),
-      degrees(found.scanner_se.theta_rad));
-  if (std::isfinite(found.late_se_s))
-    text += fmt::format(" Its stamps are {:.1f} ms late (± {:.1f} ms).", 1000 * found.late_s,
-                        1000 * found.late_se_s);
-  if (!found.choice.set.name.empty())
-    text +=
-        fmt::format(" These factors help on pieces that were not used to find them, and were changed: {}.",
-                    factors_in(found.choice.set.name));
-  return console::table(rows) + '\n' + wrapped(text) + wrapped(verdict_sentence(found));
-}
-
-}  // namespace astro::commands
+}  // namespace astro::importing
