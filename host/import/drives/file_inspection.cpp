@@ -101,21 +101,6 @@ bool ends_as_it_begins(const std::vector<WheelSample>& samples, double WheelSamp
          std::abs(samples.back().*wheel - samples.front().*wheel) <= kSame * (most.*wheel - least.*wheel);
 }
 
-WheelInspection inspect_wheels(WheelTrack track) {
-  WheelInspection out;
-  out.track = std::move(track);
-  const std::vector<WheelSample>& samples = out.track.samples;
-  out.duration_s = seconds(samples.back().time_ns - samples.front().time_ns);
-  out.rate_hz = rate_hz(samples.size(), out.duration_s);
-  for (std::size_t i = 1; i < samples.size(); ++i)
-    out.longest_gap_s = std::max(out.longest_gap_s, seconds(samples[i].time_ns - samples[i - 1].time_ns));
-  out.left = samples.back().left - samples.front().left;
-  out.right = samples.back().right - samples.front().right;
-  out.end_as_they_begin =
-      ends_as_it_begins(samples, &WheelSample::left) && ends_as_it_begins(samples, &WheelSample::right);
-  return out;
-}
-
 /// Whether the file holds settings. Only its extension shows this; tables never have one of these extensions.
 bool is_settings(const fs::path& path) {
   const fs::path end = path.extension();
@@ -168,6 +153,21 @@ FileInspection inspect_text(const fs::path& path, const WheelTable& table, const
 }
 
 }  // namespace
+
+WheelInspection inspect_wheels(WheelTrack track) {
+  WheelInspection out;
+  out.track = std::move(track);
+  const std::vector<WheelSample>& samples = out.track.samples;
+  out.duration_s = seconds(samples.back().time_ns - samples.front().time_ns);
+  out.rate_hz = rate_hz(samples.size(), out.duration_s);
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    out.longest_gap_s = std::max(out.longest_gap_s, seconds(samples[i].time_ns - samples[i - 1].time_ns));
+  out.left = samples.back().left - samples.front().left;
+  out.right = samples.back().right - samples.front().right;
+  out.end_as_they_begin =
+      ends_as_it_begins(samples, &WheelSample::left) && ends_as_it_begins(samples, &WheelSample::right);
+  return out;
+}
 
 FileInspection inspect_file(const fs::path& path, const WheelTable& table, const TruthSelection& truth) {
   const PoseSelection& topic = truth.poses;

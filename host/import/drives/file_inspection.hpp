@@ -55,6 +55,9 @@ struct FileInspection {
   std::optional<calibration::EndPoseTable> end_poses;
 };
 
+/// Precondition: the track has a sample.
+WheelInspection inspect_wheels(WheelTrack track);
+
 /// Recognises the kind of a file by its content, but that of settings (.toml, .yaml, .yml) by its extension.
 /// `table` describes wheels without column names, `truth.columns` a table of ground truth. `truth.poses` selects the one
 /// stream of poses of a bag that is inspected as a tracker's recording, which takes 72 bytes of memory for each

@@ -83,6 +83,10 @@ nlohmann::json tracker_json(const truth::Inspection& tracker) {
   return {{"kind", "tracker"}, {"bodies", bodies}, {"bodies_left_out", tracker.bodies_left_out}};
 }
 
+constexpr const char* name_of(WheelClock clock) {
+  return clock == WheelClock::file ? "file" : clock == WheelClock::stamp ? "stamp" : "receipt";
+}
+
 nlohmann::json wheels_json(const WheelInspection& wheels) {
   return {{"kind", "wheels"},
           {"unit", unit_name(wheels.track.unit)},
@@ -91,6 +95,9 @@ nlohmann::json wheels_json(const WheelInspection& wheels) {
             {"left", wheels.track.columns.left},
             {"right", wheels.track.columns.right},
             {"values", wheels.track.columns.values}}},
+          {"clock", name_of(wheels.track.clock)},
+          {"joints", {{"left", wheels.track.joints.left}, {"right", wheels.track.joints.right}}},
+          {"odometry", wheels.track.odometry},
           {"samples", wheels.track.samples.size()},
           {"duration_s", wheels.duration_s},
           {"rate_hz", wheels.rate_hz},
