@@ -7,16 +7,19 @@
 
 namespace astro::page {
 
-/// Calibrates from drives in files, by maximum likelihood: `calibrate files` and `calibrate bag`.
+/// Calibrates from drives in files, by maximum likelihood, or by the scans of a laser scanner if these are the ground truth:
+/// `calibrate files` and `calibrate bag`.
 ///
-/// question  what is stated (statements.hpp)
+/// question  what is stated (statements.hpp); "scan_topic": of bags with several topics of scans
 /// events    {"event": "imported", "drives": [{"name", "summary", "remarks": [...]}, ...]} before the estimate begins
-/// answer    {"calibration": what `calibrate --json` prints, "drives": as above, "verdict": a sentence,
+/// answer    {"calibration": what `calibrate --json` prints, "drives": as above, "remarks": on all drives together,
+///            "verdict": a sentence,
 ///            "advises_against": whether the drives are against loading the factors,
-///            "toml", "report": files; "ros2": a file for diff_drive_controller, or null,
+///            "toml": a file, "report": a file, or null with scans; "ros2": a file for diff_drive_controller, or null,
 ///            "not_in_ros2": what that file cannot express, or why there is none; otherwise null}
 ///
-/// Throws what importing::import_stated, experiment::calibrate and statements_in throw.
+/// Throws astro::Error if only some drives have scans; and what importing::import_stated, importing::scanned_drives,
+/// experiment::calibrate, lidar::calibrate_by_scans and statements_in throw.
 nlohmann::json calibrate(const nlohmann::json& question, const std::filesystem::path& folder,
                          const Emit& emit);
 

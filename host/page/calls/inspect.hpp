@@ -12,7 +12,11 @@ namespace astro::page {
 /// question  {"files": [name, ...], "roles": {name: "wheels", "truth", "both" or "none"}, and what is stated (statements.hpp)}.
 ///             A file without a role is recognised by its content.
 /// answer    {"files": [{"name", "wheels", "truth", "robot": what it is taken for,
-///              "inspection": what `inspect --json` prints, or null,
+///              "scans": its ground truth are the scans of a laser scanner,
+///              "inspection": what `inspect --json` prints, whatever is stated, or null,
+///              "understood": {"wheels", "truth"}: what `inspect --json` prints of wheels and of a body, of those that are taken
+///                as stated; without those that it is not taken for,
+///              "controllers": of a robot's file with several, their names,
 ///              "problem": {"sentence", "remedies"} or null,
 ///              "table": {"names", "columns": how many, "rows": the first of them as text} of a table, otherwise null,
 ///              "preview": {"wheels": {"t_s", "left", "right", "unit"}, "truth": {"t_s", "x_m", "y_m", "z_m"}}, at most 600
@@ -21,7 +25,8 @@ namespace astro::page {
 ///            "roles": {"wheels": [...], "truth": [...]}: what a column can be called,
 ///            "units": {"wheels": [...], "truth": [...]}: what "wheels_unit" and "truth_unit" can be}
 ///
-/// Throws astro::Error for names that lead out of the folder and wrong types; what is wrong with a file is its problem.
+/// Throws astro::Error for names that lead out of the folder, wrong types and statements that mean nothing; what is wrong with a
+/// file is its problem.
 nlohmann::json inspect(const nlohmann::json& question, const std::filesystem::path& folder, const Emit& emit);
 
 }  // namespace astro::page

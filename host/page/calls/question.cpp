@@ -63,6 +63,7 @@ std::filesystem::path file_in(const std::filesystem::path& folder, const std::st
   const std::filesystem::path path(name);
   const bool plain =
       !name.empty() && name.find('\0') == name.npos && path == path.filename() && name != "." && name != "..";
+  if (name == kMade) throw Error("'" + name + "' is where results are kept: rename the file");
   if (!plain) throw Error("'" + name + "' is no name of a file: give one without folders");
   return folder / path;
 }

@@ -3,9 +3,12 @@
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/formats/tables/stated_columns.hpp"
 #include "host/import/drives/unused_choice.hpp"
+#include "host/import/scans/carmen_log.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 #include "host/import/wheels/wheel_csv.hpp"
+#include "host/lidar/scan_calibration.hpp"
+#include "host/page/calls/statements.hpp"
 #include "host/truth/files/track_problem.hpp"
 
 namespace astro::page {
@@ -77,9 +80,12 @@ std::vector<std::string> remedies(const Error& error) {
       {StatementProblem::unknown_unit, {wheels_unit}},
       {StatementProblem::joints_not_paired, {joints}},
       {StatementProblem::frames_not_two, {truth_frames}},
+      {lidar::ScanProblem::mirrored, {truth_mirrored, swap_wheels}},
+      {lidar::ScanProblem::not_mirrored, {truth_mirrored, swap_wheels}},
       {calibration::JudgementProblem::slips_too_much, {swap_wheels}}};
   if (const auto* unused = dynamic_cast<const importing::UnusedChoice*>(&error))
     return {std::string(importing::name_of(unused->choice()))};
+  if (error.kind() == importing::ScanFileProblem::topic_unclear) return {kScanTopic};
   for (const Remedy& remedy : all)
     if (remedy.kind == error.kind()) return names_of(remedy.choices);
   return {};

@@ -1,7 +1,5 @@
 #include "host/page/calls/try_out.hpp"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -103,7 +101,7 @@ json try_out(const json& question, const std::filesystem::path& folder, const Em
   hooks.calibrated = [&](const experiment::Calibration& found, const auto&) {
     emit({{"event", "calibrated"}, {"calibration", experiment::to_json(found)}});
   };
-  const std::filesystem::path runs = folder / fmt::format("try-{}", config.seed);
+  const std::filesystem::path runs = folder / kMade / "try";
   std::filesystem::remove_all(runs);
   const experiment::Results results = experiment::run_experiment(client, truth, plan, runs, hooks);
   const std::filesystem::path report = runs / "report.html";

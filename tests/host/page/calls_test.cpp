@@ -88,6 +88,20 @@ TEST(TryOut, TheSameQuestionHasTheSameAnswer) {
   EXPECT_EQ(answers[0]["result"]["results"]["parameters"], answers[1]["result"]["results"]["parameters"]);
 }
 
+TEST(TryOut, WritesNothingAmongTheFilesOfAPerson) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"try", "try-1", "results"}) std::ofstream(folder.path() / name) << "mine";
+  ASSERT_TRUE(ask("try_out", question(1, 1), folder.path()).answer.contains("result"));
+  ASSERT_TRUE(ask("try_out", question(2, 1), folder.path()).answer.contains("result"));
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, testing::UnorderedElementsAre("try", "try-1", "results", ".made"));
+  const auto runs = std::filesystem::directory_iterator(folder.path() / ".made");
+  EXPECT_EQ(std::distance(begin(runs), end(runs)), 1)
+      << "a page that tries many robots does not fill its memory";
+}
+
 TEST(TryOut, ARobotThatNobodyBuildsIsRefusedInASentence) {
   const test::TemporaryFolder folder;
   const auto sentence = [&](const json& question) {
@@ -103,7 +117,7 @@ TEST(Calls, AFolderThatCannotBeWrittenIsToldLikeAnyOtherRefusal) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "file") << "in the way";
   const Asked asked = ask("try_out", question(1, 1), folder.path() / "file");
-  EXPECT_THAT(asked.answer.at("error").at("sentence").get<std::string>(), HasSubstr("try-1"));
+  EXPECT_THAT(asked.answer.at("error").at("sentence").get<std::string>(), HasSubstr("/try"));
 }
 
 TEST(Calls, AnswersAreTextWhateverBytesAFileHolds) {

@@ -6,9 +6,12 @@
 
 #include "host/experiment/analysis/calibration.hpp"
 #include "host/import/drives/import_drives.hpp"
+#include "host/import/scans/carmen_log.hpp"
+#include "host/lidar/scan_calibration.hpp"
 #include "host/page/calls/calls.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
 #include "tests/host/import/drives/drive_files.hpp"
+#include "tests/host/import/scans/carmen_text.hpp"
 #include "tests/support/base/places.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
@@ -106,6 +109,23 @@ TEST_F(DataCalls, FilesAreRecognisedPairedAndCalibratedAsTheLibrariesDo) {
   EXPECT_EQ(told["result"]["drives"].size(), 3U);
 }
 
+TEST_F(DataCalls, WhatIsUnderstoodIsThatOfTheStatedColumnsAndBody) {
+  write_files();
+  const json found = inspected({{"files", {"wheels1.csv", "take1.csv"}}});
+  const json &wheels = found["files"][0]["understood"]["wheels"],
+             &truth = found["files"][1]["understood"]["truth"];
+  EXPECT_EQ(wheels["columns"]["time"], "time_s");
+  EXPECT_EQ(wheels["columns"]["values"], "counts");
+  EXPECT_EQ(wheels["clock"], "file");
+  EXPECT_EQ(wheels["samples"], drives().front().wheels.size());
+  EXPECT_NEAR(truth["up_by_positions"][1].get<double>(), 1, 1e-9) << "Motive's y is up";
+  EXPECT_EQ(truth["lost"], 0);
+  EXPECT_FALSE(found["files"][0]["understood"].contains("truth"));
+  const json exchanged =
+      inspected({{"files", {"wheels1.csv"}}, {"wheel_columns", "time_s,right_counts,left_counts"}});
+  EXPECT_EQ(exchanged["files"][0]["understood"]["wheels"]["columns"]["left"], json{"right_counts"});
+}
+
 TEST_F(DataCalls, AFileThatIsNamedLikeAResultStaysAsItIs) {
   write_files();
   const std::string sizes_of_robot =
@@ -155,8 +175,9 @@ TEST_F(DataCalls, AColumnOfAnUnknownNameIsMendedByOneStatement) {
   const json mended =
       inspected({{"files", {"log.csv"}}, {"wheel_columns", "stamp_s,left_counts,right_counts,-"}});
   EXPECT_EQ(mended["files"][0]["problem"], nullptr);
-  EXPECT_EQ(mended["files"][0]["inspection"]["columns"]["left"], json{"a"});
-  EXPECT_EQ(mended["files"][0]["inspection"]["columns"]["right"], json{"b"});
+  const json& columns = mended["files"][0]["understood"]["wheels"]["columns"];
+  EXPECT_EQ(columns["left"], json{"a"});
+  EXPECT_EQ(columns["right"], json{"b"});
 }
 
 TEST_F(DataCalls, EachRoleThatAColumnIsOfferedCanBeRead) {
@@ -187,6 +208,55 @@ TEST_F(DataCalls, ABagIsADriveOfItsOwn) {
   EXPECT_EQ(found["files"][0]["table"], nullptr);
   EXPECT_FALSE(found["files"][0]["preview"]["wheels"]["left"].empty());
   EXPECT_FALSE(found["files"][0]["preview"]["truth"]["x_m"].empty());
+}
+
+TEST_F(DataCalls, AmongSeveralControllersOneIsChosenAndOtherFilesHaveNoProblem) {
+  write_files();
+  std::ofstream(at("controllers.yaml"))
+      << "left:\n  ros__parameters:\n    wheel_separation: 0.31\n    wheel_radius: 0.05\n"
+         "right:\n  ros__parameters:\n    wheel_separation: 0.29\n    wheel_radius: 0.042\n";
+  const json files = {{"files", {"controllers.yaml", "wheels1.csv"}}, {"robot", "controllers.yaml"}};
+  const json unclear = inspected(files)["files"];
+  EXPECT_EQ(unclear[0]["robot"], true);
+  EXPECT_EQ(unclear[0]["controllers"], (json{"left", "right"}));
+  EXPECT_THAT(unclear[0]["problem"]["remedies"], ElementsAre("controller"));
+  EXPECT_EQ(unclear[1]["problem"], nullptr) << unclear[1]["problem"];
+  const json chosen = inspected(with(files, {{"controller", "right"}}))["files"];
+  EXPECT_EQ(chosen[0]["problem"], nullptr) << chosen[0]["problem"];
+  EXPECT_EQ(chosen[0]["controllers"], (json{"left", "right"})) << "so that another one can be chosen";
+  EXPECT_EQ(chosen[0]["inspection"]["wheelbase_m"], 0.29);
+}
+
+TEST_F(DataCalls, TheScansOfALaserScannerAreGroundTruth) {
+  lidar::Scanner scanner;
+  scanner.beams = 180;
+  scanner.view_rad = std::numbers::pi;
+  scanner.period_s = 0.4;
+  lidar::SyntheticDrive drive(lidar::furnished_room(), {{1.013, 1.007, 0.306}, 2e-6}, scanner, 21);
+  lidar::drive_both_ways(drive, 3);
+  std::ofstream(at("room.log")) << importing::carmen_text(drive, false);
+  const json found = inspected({{"files", {"room.log"}}});
+  EXPECT_EQ(found["files"][0]["scans"], true);
+  EXPECT_EQ(found["files"][0]["problem"], nullptr) << found["files"][0]["problem"];
+  EXPECT_EQ(found["drives"].dump(), R"([{"truth":"room.log","wheels":"room.log"}])");
+  EXPECT_THAT(ask("calibrate", {{"drives", found["drives"]}})["error"]["remedies"],
+              ElementsAre("wheelbase", "robot"));
+  const json stated = {{"drives", found["drives"]}, {"wheelbase", lidar::kNominalBase_m}};
+  const json told = ask("calibrate", stated);
+  ASSERT_TRUE(told.contains("result")) << told;
+  const importing::CarmenLog log = importing::read_carmen_log(at("room.log"), lidar::kNominalBase_m);
+  const lidar::ScanCalibration expected = lidar::calibrate_by_scans({&log.drive, 1}, lidar::kLoaded);
+  EXPECT_EQ(told["result"]["calibration"]["b_m"], expected.factors.b_m);
+  EXPECT_EQ(told["result"]["calibration"]["c_R"], expected.factors.c_r);
+  EXPECT_EQ(told["result"]["advises_against"], false) << told["result"]["verdict"];
+  EXPECT_EQ(told["result"]["report"], nullptr);
+  EXPECT_TRUE(fs::exists(at(told["result"]["toml"].get<std::string>())));
+  EXPECT_THAT(ask("calibrate", with(stated, {{"up", "z"}}))["error"]["remedies"], ElementsAre("up"));
+
+  write_files();
+  const json mixed = {{{"wheels", "room.log"}, {"truth", "room.log"}},
+                      {{"wheels", "wheels1.csv"}, {"truth", "take1.csv"}}};
+  EXPECT_THAT(sentence("calibrate", with(sizes(), {{"drives", mixed}})), HasSubstr("leave one kind out"));
 }
 
 TEST_F(DataCalls, WhatIsMissingOrInTheWayIsNamedWithWhatHelps) {
@@ -225,6 +295,8 @@ TEST_F(DataCalls, NoQuestionLeadsOutOfTheFolder) {
         << name;
   }
   EXPECT_THAT(sentence("inspect", {{"files", {""}}}), HasSubstr("is no name of a file"));
+  EXPECT_EQ(sentence("inspect", {{"files", {".made"}}}),
+            "'.made' is where results are kept: rename the file");
 }
 
 TEST_F(DataCalls, WrongTypesAndValuesAreRefusedInASentence) {
