@@ -1,8 +1,5 @@
 import type { Table, WheelsFound } from "./drive_files";
-import { id_of } from "./statements";
-
-/** A name as a statement about columns can repeat it. */
-const repeatable = (name: string | undefined) => name?.replace(/[,=]/g, " ").trim() || "-";
+import { id_of, repeatable } from "./statements";
 
 const side_of = (role: string) => (role.startsWith("left") ? "left" : role.startsWith("right") ? "right" : role.startsWith("time") ? "time" : "");
 

@@ -17,6 +17,7 @@ export interface Body {
   id: string;
   format: string;
   length_unit: string;
+  start_time: string;
   samples: number;
   duration_s: number;
   median_period_s: number;
@@ -30,6 +31,11 @@ export interface Body {
 export interface WheelsFound {
   unit: string;
   columns: { time: string; left: string[]; right: string[]; values: string };
+  /** Whose times: the table's, the messages' stamps, or those of the recorder. */
+  clock: "file" | "stamp" | "receipt";
+  /** Of a bag, "" otherwise; and the topic from whose poses the wheels were worked out. */
+  joints: { left: string; right: string };
+  odometry: string;
   samples: number;
   duration_s: number;
   rate_hz: number;
@@ -42,7 +48,7 @@ export interface BagFound {
   joints: string[];
   wheels: { left: string; right: string } | null;
   wheel_sources: { name: string; unit: string | null; taken: boolean }[];
-  topics: { name: string; messages: number; rate_hz: number; longest_gap_s: number }[];
+  topics: { name: string; type: string; messages: number; rate_hz: number; longest_gap_s: number }[];
   warnings: string[];
 }
 
@@ -59,7 +65,10 @@ export interface Inspected {
   wheels: boolean;
   truth: boolean;
   robot: boolean;
+  scans: boolean;
+  controllers: string[];
   inspection: Inspection | null;
+  understood: { wheels?: WheelsFound; truth?: Body };
   problem: Problem | null;
   table: Table | null;
   preview: {
@@ -81,20 +90,27 @@ export interface Found {
 }
 
 export interface Calibrated {
-  calibration: Factors & { carried: Factors; standard_errors: Factors; standard_errors_another_day: Factors };
+  calibration: Factors & { carried?: Factors; loaded?: Factors; standard_errors: Factors; standard_errors_another_day?: Factors };
   drives: { name: string; summary: string; remarks: string[] }[];
   verdict: string;
   advises_against: boolean;
+  remarks: string[];
   toml: string;
-  report: string;
+  report: string | null;
   ros2: string | null;
   not_in_ros2: string | null;
 }
 
-export const wheels_of = (file: Inspected): WheelsFound | null =>
-  file.inspection?.kind === "wheels" ? file.inspection : file.inspection?.kind === "wheels and poses" ? file.inspection.wheels : null;
-
+/** All bodies in the recording of a tracker, of which a robot is one. */
 export const bodies_of = (file: Inspected): Body[] =>
   file.inspection?.kind === "tracker" ? file.inspection.bodies : file.inspection?.kind === "wheels and poses" ? file.inspection.tracker.bodies : [];
 
 export const bag_of = (file: Inspected): BagFound | null => (file.inspection?.kind === "bag" ? file.inspection : null);
+
+/** A log whose odometry and scans are in one file. */
+export const is_log = (file: Inspected) => file.scans && !bag_of(file);
+
+/** "y", or "" if positions do not show which axis points up; they never show whether it points up or down. */
+export const axis_of = (up: number[] | null) => "xyz"[up?.findIndex((part) => Math.abs(part) > 0.99) ?? -1] ?? "";
+
+export const unique = (all: string[]) => [...new Set(all.filter((each) => each !== ""))];

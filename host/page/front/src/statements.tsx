@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { bag_of, bodies_of, type Found } from "./drive_files";
+import { axis_of, bag_of, bodies_of, type Found, is_log, type Table, unique } from "./drive_files";
 
 /** What a person states beside the files; the names are those of host/page/calls/statements.hpp. What is missing is recognised. */
 export type Statements = Record<string, string | number | boolean | string[]>;
@@ -13,6 +13,10 @@ export const kLabels: Record<string, string> = {
   wheels_unit: "Their unit",
   joints: "Joints of the wheels",
   truth_topic: "Ground truth in the bag",
+  truth_frames: "Its frames, parent to child",
+  scan_topic: "Laser scanner in the bag",
+  robot: "File with the robot's sizes",
+  controller: "Controller in that file",
   body: "The robot among the tracked bodies",
   per_interval: "Each row is the travel since the row before",
   counter_range: "Counters start again after",
@@ -40,47 +44,112 @@ interface NumberField {
 interface Flag {
   kind: "flag";
 }
-export type Field = { name: string; hint: string } & (Menu | NumberField | Flag);
+/** `recognised`: what is taken while nothing is stated, as far as that is known before calibrating. */
+export type Field = { name: string; hint?: string; recognised?: string } & (Menu | NumberField | Flag);
 
 const words = (all: string[]): [string, string][] => all.map((each) => [each, each]);
-const unique = (all: string[]) => [...new Set(all)];
 
-export const kSizes: Field[] = [
-  { name: "wheel_diameter", hint: "as the robot's program takes it", kind: "number", unit: "mm", scale: 0.001 },
-  { name: "wheelbase", hint: "between the wheels, as the robot's program takes it", kind: "number", unit: "mm", scale: 0.001 },
-  { name: "counts_per_turn", hint: "of the wheel, for wheels in counts", kind: "number", unit: "", scale: 1 },
-];
+/** What the robot is made of; a log of odometry and scans has use for the wheelbase alone. */
+export function sizes_of(found: Found): Field[] {
+  const sizes: Field[] = [
+    { name: "wheelbase", hint: "between the wheels, as the robot's program takes it", kind: "number", unit: "mm", scale: 0.001 },
+    { name: "wheel_diameter", hint: "as the robot's program takes it", kind: "number", unit: "mm", scale: 0.001 },
+    { name: "counts_per_turn", hint: "of the wheel, for wheels in counts", kind: "number", unit: "", scale: 1 },
+  ];
+  const robots = found.files.filter((file) => file.robot);
+  const controllers = unique(robots.flatMap((file) => file.controllers));
+  const logs = found.files.filter((file) => file.wheels);
+  const menus: (Field | false)[] = [
+    robots.length > 1 && { name: "robot", kind: "menu", choices: words(robots.map((file) => file.name)), recognised: robots[0]?.name },
+    controllers.length > 0 && { name: "controller", kind: "menu", choices: words(controllers) },
+  ];
+  const only_logs = logs.length > 0 && logs.every(is_log);
+  return [...sizes.slice(0, only_logs ? 1 : undefined), ...menus.filter((each) => each !== false)];
+}
 
-/** The menus that these files have a use for. */
-export function fields_of(found: Found): Field[] {
-  const bags = found.files.map(bag_of).filter((each) => each !== null);
-  const bodies = unique(found.files.flatMap((file) => bodies_of(file).map((body) => body.name || body.id)).filter((name) => name !== ""));
+const joined = (all: string[]) => unique(all).join(" or ");
+
+/** The menus about wheels that these files have a use for. */
+export function wheel_fields_of(found: Found): Field[] {
+  const files = found.files.filter((file) => file.wheels);
+  const recorded = files.filter((file) => !is_log(file));
+  const bags = files.map(bag_of).filter((each) => each !== null);
+  const taken = files.map((file) => file.understood.wheels).filter((each) => each !== undefined);
   const sources = unique(bags.flatMap((bag) => bag.wheel_sources.map((each) => each.name)));
-  const poses = unique(bags.flatMap((bag) => bag.poses.map((each) => each.topic)));
   const joints = unique(bags.flatMap((bag) => bag.joints));
   const pairs = joints.flatMap((left) => joints.filter((right) => right !== left).map((right): [string, string[]] => [`${left} left, ${right} right`, [left, right]]));
-  const tables = found.files.some((file) => file.wheels && file.table);
-  const wheels = found.files.some((file) => file.wheels);
-  const truth = found.files.some((file) => file.truth);
   const fields: (Field | false)[] = [
-    sources.length > 1 && { name: "wheels_topic", hint: "", kind: "menu", choices: words(sources) },
-    bags.some((bag) => bag.wheel_sources.some((each) => each.unit === null)) && {
-      name: "wheels_unit", hint: "", kind: "menu", choices: words(found.units.wheels),
+    sources.length > 1 && {
+      name: "wheels_topic", kind: "menu", choices: words(sources),
+      recognised: joined(bags.flatMap((bag) => bag.wheel_sources.filter((each) => each.taken).map((each) => each.name))),
     },
-    pairs.length > 0 && pairs.length <= 90 && { name: "joints", hint: "", kind: "menu", choices: pairs },
-    poses.length > 1 && { name: "truth_topic", hint: "", kind: "menu", choices: words(poses) },
-    bodies.length > 1 && { name: "body", hint: "", kind: "menu", choices: words(bodies) },
-    tables && { name: "per_interval", hint: "", kind: "flag" },
-    wheels && { name: "counter_range", hint: "as 65536; found from the data if it is empty", kind: "number", unit: "counts", scale: 1 },
-    wheels && { name: "swap_wheels", hint: "", kind: "flag" },
-    wheels && { name: "reverse_wheels", hint: "", kind: "flag" },
-    wheels && { name: "drives_backward", hint: "", kind: "flag" },
-    truth && { name: "up", hint: "", kind: "menu", choices: words(["x", "y", "z", "-x", "-y", "-z"]) },
-    truth && { name: "truth_unit", hint: "", kind: "menu", choices: words(found.units.truth) },
-    truth && { name: "truth_mirrored", hint: "", kind: "menu", choices: words(["yes", "no"]) },
+    bags.some((bag) => bag.wheel_sources.some((each) => each.unit === null)) && { name: "wheels_unit", kind: "menu", choices: words(found.units.wheels) },
+    pairs.length > 0 && pairs.length <= 90 && {
+      name: "joints", kind: "menu", choices: pairs,
+      recognised: joined(taken.map(({ joints }) => (joints.left ? `${joints.left} left, ${joints.right} right` : ""))),
+    },
+    recorded.some((file) => file.table) && { name: "per_interval", kind: "flag" },
+    files.length > 0 && { name: "swap_wheels", kind: "flag" },
+    files.length > 0 && { name: "reverse_wheels", kind: "flag" },
+    found.files.some((file) => file.truth && !file.scans) && { name: "drives_backward", kind: "flag" },
+    recorded.length > 0 && { name: "counter_range", hint: "as 65536; found from the data if it is empty", kind: "number", unit: "counts", scale: 1 },
   ];
   return fields.filter((each) => each !== false);
 }
+
+const kScans = /\/LaserScan$/;
+
+/** The menus about ground truth that these files have a use for. */
+export function truth_fields_of(found: Found): Field[] {
+  const files = found.files.filter((file) => file.truth);
+  const tracked = files.filter((file) => !file.scans);
+  const bags = files.map(bag_of).filter((each) => each !== null);
+  const with_scans = bags.some((bag) => bag.topics.some((topic) => kScans.test(topic.type)));
+  const taken = tracked.map((file) => file.understood.truth).filter((each) => each !== undefined);
+  const bodies = unique(tracked.flatMap((file) => bodies_of(file).map((body) => body.name || body.id)));
+  const topics = unique(bags.flatMap((bag) => bag.poses.map((each) => each.topic)));
+  const frames = unique(bags.flatMap((bag) => bag.poses.map((each) => (each.frame && each.child_frame ? JSON.stringify([each.frame, each.child_frame]) : ""))));
+  const scans = unique(files.filter((file) => file.scans).flatMap((file) => (bag_of(file)?.topics ?? []).filter((topic) => kScans.test(topic.type)).map((topic) => topic.name)));
+  const fields: (Field | false)[] = [
+    // A single one is no estimate if somebody names it, and goes before scans.
+    topics.length > (with_scans ? 0 : 1) && { name: "truth_topic", kind: "menu", choices: words(topics), recognised: joined(taken.map((body) => body.id)) },
+    frames.length > 1 && {
+      name: "truth_frames", kind: "menu",
+      choices: frames.map((each): [string, string[]] => { const pair = JSON.parse(each) as string[]; return [pair.join(" to "), pair]; }),
+    },
+    bodies.length > 1 && { name: "body", kind: "menu", choices: words(bodies), recognised: joined(taken.map((body) => body.name || body.id)) },
+    scans.length > 1 && { name: "scan_topic", kind: "menu", choices: words(scans) },
+    tracked.length > 0 && { name: "up", kind: "menu", choices: words(["x", "y", "z", "-x", "-y", "-z"]), recognised: joined(taken.map((body) => axis_of(body.up_by_positions))) },
+    tracked.length > 0 && { name: "truth_unit", kind: "menu", choices: words(found.units.truth), recognised: joined(taken.map((body) => body.length_unit || "m")) },
+    files.length > 0 && { name: "truth_mirrored", kind: "menu", choices: words(["yes", "no"]), recognised: "by the motion" },
+  ];
+  return fields.filter((each) => each !== false);
+}
+
+/** The tables whose columns are shown, of which the others of their kind are read in the same way. */
+export const wheel_table_of = (found: Found) => found.files.find((file) => file.wheels && file.table);
+export const truth_table_of = (found: Found) => found.files.find((file) => file.truth && !file.wheels && file.table);
+
+/** Whether a statement about columns can be about this table: it has as many, and each is a role or the column's own name. */
+function fits(stated: Statements[string], table: Table | null | undefined, roles: string[]): boolean {
+  const names = String(stated).split(",");
+  return !!table && names.length === table.columns && names.every((name, i) => name === "-" || roles.includes(name) || name === repeatable(table.names[i]));
+}
+
+/** The statements that the page still shows somewhere. Nobody could see or take back the others. */
+export function shown_of(stated: Statements, found: Found): Statements {
+  const fields = [...sizes_of(found), ...wheel_fields_of(found), ...truth_fields_of(found)];
+  const is_shown = ([name, value]: [string, Statements[string]]) => {
+    if (name === "wheel_columns") return fits(value, wheel_table_of(found)?.table, found.roles.wheels);
+    if (name === "truth_columns") return fits(value, truth_table_of(found)?.table, found.roles.truth);
+    const field = fields.find((each) => each.name === name);
+    return field !== undefined && (field.kind !== "menu" || field.choices.some(([, each]) => JSON.stringify(each) === JSON.stringify(value)));
+  };
+  return Object.fromEntries(Object.entries(stated).filter(is_shown));
+}
+
+/** A name as a statement about columns can repeat it. */
+export const repeatable = (name: string | undefined) => name?.replace(/[,=]/g, " ").trim() || "-";
 
 /** An input that a remedy of an error can be pointed to. */
 export const id_of = (name: string) => `statement-${name}`;
@@ -124,7 +193,7 @@ export function FieldInput(props: { field: Field; value: Statements[string] | un
     <label for={id}>
       {kLabels[field.name]}
       <select id={id} value={chosen} onChange={(event) => set(field.choices[Number(event.currentTarget.value)]?.[1])}>
-        <option value={-1}>as recognised</option>
+        <option value={-1}>as recognised{value === undefined && field.recognised && `: ${field.recognised}`}</option>
         {field.choices.map(([word], i) => (
           <option value={i} key={word}>
             {word}

@@ -7,14 +7,18 @@ export class WasmBackend implements Backend {
   readonly has_ports = false;
   private worker: Worker | undefined;
   private questions = new OpenQuestions();
+  /** Why the worker cannot answer; set once and for all. */
+  private broken = "";
 
   /** Loads the module, which the first question would do, too. */
   start(): Worker {
     if (this.worker) return this.worker;
     this.worker = new Worker(new URL("./wasm_worker.ts", import.meta.url), { type: "module" });
     this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.take(data);
-    this.worker.onerror = (event) =>
-      this.questions.refuse_all(`the module cannot be loaded: ${event.message ?? "it is not beside this page"}`);
+    this.worker.onerror = (event) => {
+      this.broken = `the module cannot be loaded: ${event.message || "it is not beside this page"}`;
+      this.questions.refuse_all(this.broken);
+    };
     return this.worker;
   }
 
@@ -35,7 +39,9 @@ export class WasmBackend implements Backend {
   }
 
   private send(message: ToWorker) {
-    this.start().postMessage(message);
+    const worker = this.start();
+    if (this.broken) this.questions.refuse(message.id, this.broken);
+    else worker.postMessage(message);
   }
 
   private take(message: FromWorker) {

@@ -1,4 +1,4 @@
-// The built page in Chromium, from a web server of its own on the loopback.
+// The built page in a browser, from a web server of its own on the loopback.
 import { createReadStream, existsSync } from "node:fs";
 import { createServer } from "node:http";
 import path from "node:path";
@@ -25,6 +25,17 @@ export function serve({ isolated = false } = {}) {
   );
 }
 
+const engines = {
+  chromium: () =>
+    library("playwright-core").chromium.launch({
+      executablePath: process.env.ASTROLABE_CHROMIUM ?? "/usr/bin/chromium",
+      args: ["--no-sandbox", "--disable-dev-shm-usage"],
+    }),
+  // Debian's Firefox speaks WebDriver BiDi, and not the protocol of the one that Playwright builds.
+  firefox: () =>
+    library("playwright-core").firefox.launch({ channel: "moz-firefox", executablePath: process.env.ASTROLABE_FIREFOX ?? "/usr/bin/firefox-esr" }),
+};
+
 /** `use` on `wanted` of this page's own server, in a new window. */
 export async function in_browser(wanted, options, use) {
   const server = await serve(options);
@@ -35,17 +46,22 @@ export async function in_browser(wanted, options, use) {
   }
 }
 
-/** `use` on a new window, with the times at which it was opened. What the page complains of, and each request beyond its own server, is an error, unless `options.may_complain` holds for it. */
+/**
+ * `use` on a new window, with the times at which it was opened. What the page complains of, and each request beyond its own server,
+ * is an error.
+ *   engine        "chromium" unless it is "firefox"
+ *   init          runs in the page before anything of its own
+ *   without       addresses that are not found
+ *   may_complain  whether a complaint is none
+ */
 export async function in_window(address, options, use) {
-  const { chromium } = library("playwright-core");
-  const browser = await chromium.launch({
-    executablePath: process.env.ASTROLABE_CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-dev-shm-usage"],
-  });
+  const browser = await engines[options.engine ?? "chromium"]();
   try {
     const window = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
     const complaints = [];
     const complain = (text) => options.may_complain?.(text) || complaints.push(text);
+    if (options.init) await window.addInitScript(options.init);
+    if (options.without) await window.route(options.without, (route) => route.abort());
     window.on("pageerror", (error) => complain(error.message));
     window.on("console", (message) => message.type() === "error" && complain(message.text()));
     window.on("request", (request) => {
