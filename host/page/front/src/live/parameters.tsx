@@ -4,6 +4,7 @@ import { Confirm } from "./confirm";
 import type { Parameter } from "./contract";
 import type { Robot } from "./robot";
 import { use_robot } from "./use_robot";
+import { unit_text } from "./words";
 
 const is_text = (parameter: Parameter) => typeof parameter.value === "string";
 
@@ -33,7 +34,7 @@ function Row(props: { parameter: Parameter; problem: string; stage: (value: numb
           <input ref={input} id={id} type={is_text(parameter) ? "text" : "number"} step="any" aria-describedby={`${id}-doc`}
             aria-invalid={problem ? "true" : undefined} onChange={(event) => enter(event.currentTarget.value)}
             onKeyDown={(event) => event.key === "Escape" && show()} />
-          {unit}
+          {unit_text(unit)}
         </span>
         <small>{parameter.staged !== null ? `now ${value}` : is_text(parameter) ? `${min} to ${max} characters` : `${min} to ${max}`}</small>
       </td>

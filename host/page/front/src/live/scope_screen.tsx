@@ -113,6 +113,7 @@ export function ScopeScreen({ robot, traces, window_s, mode, condition, paused, 
     show_values();
   });
 
+  const lanes = new Set(traces.map(({ unit }) => unit)).size;
   const shown = traces.map(({ name }) => name).join();
   useEffect(() => view.current!.show(traces), [shown]);
   useEffect(() => {
@@ -139,7 +140,7 @@ export function ScopeScreen({ robot, traces, window_s, mode, condition, paused, 
   };
   return (
     <>
-      <div class="screen">
+      <div class="screen" style={{ minHeight: `${5.5 * lanes}rem` }}>
         <canvas ref={back} aria-hidden="true" />
         <canvas ref={front} tabIndex={0} role="slider" aria-label="Cursor of the scope" aria-valuemin={0} aria-valuemax={100} aria-valuenow={100} aria-valuetext="none"
           onKeyDown={key} onPointerMove={(event) => point(event.offsetX)} onPointerDown={(event) => point(event.offsetX)}
