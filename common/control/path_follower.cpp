@@ -19,6 +19,11 @@ constexpr std::int32_t to_uradps(std::int64_t turn_52) {
   return turn_32 + mul_high(turn_32, static_cast<std::int32_t>(kTwoPi_9 - kWhole));
 }
 
+// What changes so much in a tick. No legal profile comes near the limit.
+constexpr std::int32_t per_second(std::int32_t change) {
+  return clamp_abs(change, INT32_MAX / kTickHz) * kTickHz;
+}
+
 // The errors are limited, so that a robot that is far behind hurries but does not jump.
 constexpr int kErrorBits = 29;  // of 2^-30 m: 0.25 m
 constexpr int kTurnBits = 29;   // of 2^-32 turn: 1/16 turn
@@ -41,28 +46,34 @@ void PathFollower::set_gains(const ParameterSet& set) {
 
 void PathFollower::begin_path(const Pose& pose) {
   reference_.set_pose(pose);
-  profile_ = Trapezoid{};
-  last_ = {};
+  begin({});
+  last_ = correction_ = {};
 }
 
-PathFollower::Command PathFollower::advance(const Pose& actual) {
+PathFollower::Command PathFollower::advance(const Pose& actual, bool corrects) {
   BodyTwist wanted;
   if (!profile_.done()) {
     const Trapezoid::Step step = profile_.advance();
-    move_reference(step);
     wanted = {to_umps(step.travel), to_uradps(step.turn)};
   }
-  const BodyTwist correction_now = correction(actual, wanted.v_umps);
+  if (corrects) {
+    move_reference();
+    correction_ = correction(actual, wanted.v_umps);
+  }
   Command command;
-  command.twist = {add_saturated(wanted.v_umps, correction_now.v_umps),
-                   add_saturated(wanted.omega_uradps, correction_now.omega_uradps)};
-  command.acceleration = {saturate32(mul_wide(wanted.v_umps - last_.v_umps, kTickHz)),
-                          saturate32(mul_wide(wanted.omega_uradps - last_.omega_uradps, kTickHz))};
+  command.twist = {add_saturated(wanted.v_umps, correction_.v_umps),
+                   add_saturated(wanted.omega_uradps, correction_.omega_uradps)};
+  command.acceleration = {per_second(wanted.v_umps - last_.v_umps),
+                          per_second(wanted.omega_uradps - last_.omega_uradps)};
   last_ = wanted;
   return command;
 }
 
-void PathFollower::move_reference(const Trapezoid::Step& step) {
+// Length and angle of a segment advance together, so that the steps of several ticks are one arc.
+void PathFollower::move_reference() {
+  const Trapezoid::Step& given = profile_.given();
+  const Trapezoid::Step step{given.travel - moved_.travel, given.turn - moved_.turn};
+  moved_ = given;
   if (step.travel == 0) {
     reference_.spin(step.turn * 4096);
   } else if (step.turn == 0) {

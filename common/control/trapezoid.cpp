@@ -105,13 +105,17 @@ Trapezoid::Step Trapezoid::advance() {
   // Shares of one tick: 1, 3, 5, ... 2 ramp - 1 going up, 2 ramp at the level, and down again the same way.
   const std::int32_t from_end = 2 * ramp_ + level_ - 1 - tick_;
   const std::int32_t edge = tick_ < from_end ? tick_ : from_end;
-  const std::int64_t shares = edge < ramp_ ? 2 * edge + 1 : 2 * ramp_;
+  const std::int32_t shares = edge < ramp_ ? 2 * edge + 1 : 2 * ramp_;
   ++tick_;
-  rest_.travel += unit_.travel * shares;
-  rest_.turn += unit_.turn * shares;
-  Step step{rest_.travel >> kUnitBits, rest_.turn >> kUnitBits};
-  constexpr std::int64_t kBelowUnit = (std::int64_t{1} << kUnitBits) - 1;
-  rest_ = {rest_.travel & kBelowUnit, rest_.turn & kBelowUnit};
+  // Most segments are a line or a spin.
+  const auto share_of = [shares](std::int64_t unit, std::int64_t& rest) {
+    if (unit == 0) return std::int64_t{0};
+    rest += mul_low(unit, shares);
+    const std::int64_t whole = rest >> kUnitBits;
+    rest &= (std::int64_t{1} << kUnitBits) - 1;
+    return whole;
+  };
+  Step step{share_of(unit_.travel, rest_.travel), share_of(unit_.turn, rest_.turn)};
   if (done() && !cut_) step = {total_.travel - given_.travel, total_.turn - given_.turn};
   given_.travel += step.travel;
   given_.turn += step.turn;

@@ -32,6 +32,10 @@ class Trapezoid {
   Step advance();
 
   std::int64_t ticks() const { return 2 * ramp_ + level_; }
+  /// Sum of the steps so far.
+  const Step& given() const { return given_; }
+  /// It was cut short, so that a part of the segment is left when it is done.
+  bool was_cut() const { return cut_; }
 
   /// Goes down to rest from now on, as steeply as at the planned end. The part of the segment that is then
   /// left is rest().

@@ -53,7 +53,7 @@ HeadingFilter::Configuration::Configuration(const ParameterSet& set, const Geome
   const std::int64_t base_um = set.get(Param::b) / 1000;
   slip_per_m_10 = kSlip_10 * kMicro / base_um * kMicro / base_um;
   const std::int64_t turn_32 = std::max(geometry.left.turn, geometry.right.turn) >> 32;
-  count = turn_32 * turn_32;
+  rounding = turn_32 * turn_32 / 3;
 }
 
 void HeadingFilter::advance(const HeadingStep& step, bool believe_wheels) {
@@ -113,7 +113,7 @@ bool HeadingFilter::accepts(std::int64_t innovation_48, std::int64_t variance, b
       std::min(magnitude(innovation_48) >> 16, std::int64_t{1} << 31);  // a square of 62 bits
   if (!at_rest) {
     disagrees_ = 0;
-    return size_32 * size_32 <= kGate * (variance + configuration_.count * 2 / 3);
+    return size_32 * size_32 <= kGate * (variance + 2 * configuration_.rounding);
   }
   const bool quiet = at_rest_ > kSettle_steps && scatter_ <= 2 * kMostScatter_16;
   const bool agrees = size_32 * size_32 <= kGate * variance;

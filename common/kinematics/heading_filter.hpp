@@ -47,7 +47,7 @@ class HeadingFilter {
     [[gnu::cold]] Configuration(const ParameterSet& set, const Geometry& geometry);
 
     std::int64_t slip_per_m_10 = 0;  // variance of the wheels' heading per metre rolled, 2^-10
-    std::int64_t count = 0;          // square of one count's turn
+    std::int64_t rounding = 0;       // variance of a difference of two headings that are rounded to counts
   };
 
   void configure(const Configuration& configuration) { configuration_ = configuration; }

@@ -17,6 +17,8 @@ std::int64_t add_part(std::int64_t value, std::int32_t part_32) {
 }  // namespace
 
 void Odometry::advance(std::int32_t left_counts, std::int32_t right_counts, const WheelSpeeds& speeds) {
+  // No bit would change: what a step leaves over is less than what a step can hold.
+  if ((left_counts | right_counts) == 0) return;
   if (geometry_.effective_base.varies())
     return advance_about_effective_base(left_counts, right_counts, speeds);
   integrator_.advance(travel(left_counts, right_counts), turn(left_counts, right_counts));

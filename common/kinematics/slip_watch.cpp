@@ -50,8 +50,9 @@ bool SlipWatch::exceeds_noise(const Window& window, int steps, std::int64_t chan
   if (sum < kLeast_32) return false;
   constexpr std::int64_t kMostTurn = std::int64_t{1} << 40;
   const std::int64_t turn = std::min(magnitude(window.turn), kMostTurn) / 1024;
-  const std::int64_t change_in_2ms = std::min(magnitude(change), kMost_32) / 5;  // a step is 10 ms
-  const std::int64_t variance = steps * HeadingFilter::kGyro + filter.slip(window.path) + count_ / 3 +
+  // A step is 10 ms. A quotient of 32 bits, because one of 64 is ten times as dear.
+  const std::int64_t change_in_2ms = static_cast<std::uint32_t>(std::min(magnitude(change), kMost_32)) / 5;
+  const std::int64_t variance = steps * HeadingFilter::kGyro + filter.slip(window.path) + rounding_ +
                                 steps * steps * filter.bias_variance() + change_in_2ms * change_in_2ms +
                                 turn * turn;
   constexpr std::int64_t kMostVariance = std::int64_t{1} << 57;  // 121 / 4 of it fit into 63 bits

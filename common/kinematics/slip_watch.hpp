@@ -21,7 +21,7 @@ class SlipWatch {
  public:
   static constexpr int kWindow = 30;  // steps
 
-  void configure(const HeadingFilter::Configuration& configuration) { count_ = configuration.count; }
+  void configure(const HeadingFilter::Configuration& configuration) { rounding_ = configuration.rounding; }
 
   /// One step and the filter as it was advanced with it. True if a slip is found with this step.
   bool advance(const HeadingStep& step, const HeadingFilter& filter);
@@ -46,7 +46,7 @@ class SlipWatch {
   /// `change`: of the wheels' turn in a step, from the beginning of the window to its end.
   bool exceeds_noise(const Window& window, int steps, std::int64_t change, const HeadingFilter& filter) const;
 
-  std::int64_t count_ = 0;
+  std::int64_t rounding_ = 0;
   std::array<Entry, kWindow> ring_{};
   int at_ = 0;
   int calm_ = kWindow;  // steps in a row below the thresholds

@@ -144,13 +144,19 @@ struct GyroReading {
   std::uint64_t time_us = 0;                     // when the sample came; another time for each sample
 };
 
+/// Without the call of a library that a comparison of arrays is.
+constexpr bool same_rate(const std::array<std::int16_t, 3>& a, const std::array<std::int16_t, 3>& b) {
+  return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
+
 /// A rate gyro of three axes, fixed to the robot's body in any way. Optional: a board without one has no `gyro()`, and then
 /// its firmware no code for it, or one that says `absent`.
-///   read()  the newest sample. Never waits, and begins the fetching of the next one if the board has to do that. Tick only
+///   read()  the newest sample. Never waits, and begins the fetching of the next one if the board has to do that. Tick only, and in
+///           each tick once, because a board may count its time in calls
 template <class T>
 concept Gyro = requires(T& gyro) {
   { gyro.read() }
-  noexcept->std::same_as<GyroReading>;
+  noexcept->std::convertible_to<const GyroReading&>;
 };
 
 /// A board with a gyro.

@@ -28,7 +28,7 @@ class Gyro {
 
   explicit Gyro(const Config& config);
 
-  hal::GyroReading read() noexcept { return reading_; }
+  const hal::GyroReading& read() noexcept { return reading_; }
 
   // What only the board and its owner see.
 

@@ -78,8 +78,9 @@ class ControlTick {
   const SharedState<Board>& state() const { return state_; }
 
  private:
-  /// All that a gyro can do to the motors is to open their bridges.
+  /// All that a gyro can do to the motors is to open their bridges. One that is not used is not read either.
   void follow_gyro(TickState<true>& state, std::uint64_t now_us) {
+    if (!state.gyro.in_use()) return;
     if (!state.gyro.advance(board_.gyro().read(), state.drive, now_us) || !state.drive.gives_power())
         [[likely]]
       return;

@@ -6,9 +6,7 @@ namespace astro {
 namespace {
 
 // Scales both components by one factor, so that a command beyond the limits keeps its curvature.
-BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
-  if (!exceeds(twist.v_umps, limits.speed_umps) && !exceeds(twist.omega_uradps, limits.yaw_rate_uradps))
-    return twist;
+[[gnu::noinline]] BodyTwist reduced(const BodyTwist& twist, const MotionLimits& limits) {
   const std::int64_t v = magnitude(twist.v_umps);
   const std::int64_t omega = magnitude(twist.omega_uradps);
   const bool v_leads = v * limits.yaw_rate_uradps >= omega * limits.speed_umps;
@@ -16,6 +14,13 @@ BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
   const std::int64_t most = v_leads ? limits.speed_umps : limits.yaw_rate_uradps;
   return {static_cast<std::int32_t>(twist.v_umps * most / wanted),
           static_cast<std::int32_t>(twist.omega_uradps * most / wanted)};
+}
+
+BodyTwist within_limits(const BodyTwist& twist, const MotionLimits& limits) {
+  if (!exceeds(twist.v_umps, limits.speed_umps) && !exceeds(twist.omega_uradps, limits.yaw_rate_uradps))
+      [[likely]]
+    return twist;
+  return reduced(twist, limits);
 }
 
 }  // namespace
@@ -39,6 +44,7 @@ void Drive::configure(const Configuration& configuration) {
 
 Drive::Output Drive::advance(const TickInput& input) {
   now_us_ = input.now_us;
+  phase_ = phase_ + 1 < kPhases ? phase_ + 1 : 0;
   const Wheels::Steps steps = wheels_.read(input);
   odometry_.advance(steps.left, steps.right, wheels_.speeds());
   const State before = state();
@@ -48,18 +54,18 @@ Drive::Output Drive::advance(const TickInput& input) {
   return output(set_point(), input);
 }
 
-protocol::Mode Drive::mode() const {
-  switch (state()) {
+protocol::Mode Drive::mode_of(const Manner& manner) {
+  switch (manner.state) {
     case State::boot:
       return Mode::boot;
     case State::disarmed:
       return Mode::disarmed;
     case State::armed:
-      return paused_ ? Mode::paused : Mode::idle;
+      return manner.paused ? Mode::paused : Mode::idle;
     case State::driving:
-      return steering_ == Steering::path        ? Mode::segment
-             : steering_ == Steering::open_loop ? Mode::wheels
-                                                : Mode::velocity;
+      return manner.steering == Steering::path        ? Mode::segment
+             : manner.steering == Steering::open_loop ? Mode::wheels
+                                                      : Mode::velocity;
     case State::stopping:
       return Mode::stopping;
     default:
@@ -255,7 +261,7 @@ void Drive::end_segment() {
 Drive::SetPoint Drive::set_point() {
   switch (state()) {
     case State::armed:
-      if (paused_ || !path_.ready() || !start_path()) return {};
+      if (phase_ != kBoundaryPhase || paused_ || !path_.ready() || !start_path()) return {};
       return set_point_of_path();
     case State::driving:
       return steering_ == Steering::path ? set_point_of_path() : set_point_of_ramp();
@@ -278,8 +284,8 @@ Drive::SetPoint Drive::set_point_of_ramp() {
 }
 
 Drive::SetPoint Drive::set_point_of_path() {
-  const PathFollower::Command command = path_.advance(odometry_.pose());
-  if (path_.arrived() && path_.settled(wheels_.stopped())) end_segment();
+  const PathFollower::Command command = path_.advance(odometry_.pose(), phase_ % kCorrection_ticks == 0);
+  if (path_.arrived() && path_.settled(wheels_.stopped()) && phase_ == kBoundaryPhase) end_segment();
   return {within_limits(command.twist, limits_), command.acceleration};
 }
 

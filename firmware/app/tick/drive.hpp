@@ -50,6 +50,11 @@ class Drive {
     ParameterSet set;  // for the gains, which need no conversion
   };
 
+  /// What need not be done in every tick is done in some of ten, each such work in ticks of its own, so that none is long.
+  static constexpr std::uint32_t kPhases = 10;
+  static constexpr std::uint32_t kCorrection_ticks = 5;  // a path's correction comes in the phases 0 and 5
+  static constexpr std::uint32_t kBoundaryPhase = 7;     // in which a segment begins and ends
+
   explicit Drive(const ParameterSet& set) { configure(set); }
 
   /// Replaces the parameters; the pose stays as it is. Precondition while the wheels are driven: only gains
@@ -106,6 +111,8 @@ class Drive {
   /// Does both, for owners whose tick cannot interrupt them.
   void plan();
 
+  /// Which of ten ticks the last one was.
+  std::uint32_t phase() const { return phase_; }
   State state() const { return supervisor_.state(); }
   bool armed() const { return within(state(), states(State::armed, State::driving, State::stopping)); }
   /// The motors drive the wheels: a command, a segment or a ramp to rest is under way. The wheels of a robot
@@ -114,7 +121,15 @@ class Drive {
   bool stopped_without_power() const { return !gives_power() && wheels_.stopped(); }
   /// Also true while there is no room for the event that another segment's end would need.
   bool queue_full() const { return path_.full(); }
-  Mode mode() const;
+  Mode mode() const { return mode_of(manner()); }
+  /// All that the mode is made of. It costs less to keep.
+  struct Manner {
+    State state;
+    Supervisor::Steering steering;
+    bool paused;
+  };
+  Manner manner() const { return {state(), steering_, paused_}; }
+  static Mode mode_of(const Manner& manner);
   const Pose& pose() const { return odometry_.pose(); }
   const Wheels& wheels() const { return wheels_; }
   const PathFollower& follower() const { return path_.follower(); }
@@ -159,6 +174,7 @@ class Drive {
   bool paused_ = false;  // no segment begins
   WheelVoltages voltages_;
   std::uint64_t now_us_ = 0;
+  std::uint32_t phase_ = 0;
   SegmentPath path_;
   TwistRamp ramp_;
 };

@@ -1,6 +1,7 @@
 #include "firmware/app/tick/gyro_heading.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/fixed/multiply.hpp"
 #include "common/fixed/saturate.hpp"
@@ -72,12 +73,13 @@ void GyroHeading::begin_at(const Drive& drive) {
   correction_64_ = static_cast<std::uint64_t>(filter_.correction_48()) << 16;
   history_.fill(wheels_of(drive));
   lagging_ = history_[0];
+  held_ticks_ = 0;
   watch_.reset();
   step_ = {};
-  ticks_ = 0;
   sum_ = 0;
   fused_us_ = 0;
   stepped_ = false;
+  partial_ = true;
 }
 
 bool GyroHeading::take_slip(UnseenTurn& slip) {
@@ -88,19 +90,22 @@ bool GyroHeading::take_slip(UnseenTurn& slip) {
 }
 
 bool GyroHeading::advance(const hal::GyroReading& reading, const Drive& drive, std::uint64_t now_us) {
-  if (!in_use()) return false;
-  // Saturation is the least of the faults, so it is the worst of a step only if there is no other.
-  const State now = take(reading);
-  if (now != State::running && (now != State::saturated || worst_ == State::running)) worst_ = now;
-  switch (++ticks_) {
-    case kTicks:
-      step_filter(drive);
-      ticks_ = 0;
+  if (reading.time_us != sample_us_) take_sample(reading);
+  ++held_ticks_;
+  switch (drive.phase()) {
+    case kFilterPhase:
+      hold();
+      if (reading.state != hal::GyroReading::State::running) [[unlikely]]
+        note(of_board(reading.state));
+      make_step(drive);
       return false;
-    case 1:
+    case kFilterPhase + 1:
+      step_filter();
+      return false;
+    case kFilterPhase + 2:
       step_watch(now_us);
       return slip_stops_ && watch_.slipping();
-    case 2:
+    case kFilterPhase + 3:
       step_pose(drive, now_us);
       return false;
     default:
@@ -108,22 +113,24 @@ bool GyroHeading::advance(const hal::GyroReading& reading, const Drive& drive, s
   }
 }
 
-GyroHeading::State GyroHeading::take(const hal::GyroReading& reading) {
-  if (reading.time_us != sample_us_) {
-    take_sample(reading);
-  } else if (age_ticks_ < kSilence_ticks) {
-    ++age_ticks_;
-  }
-  sum_ += about_up_;
-  if (reading.state != hal::GyroReading::State::running) [[unlikely]]
-    return of_board(reading.state);
-  return age_ticks_ < kSilence_ticks ? of_sample_ : State::silent;
+// Saturation is the least of the faults, so it is the worst of a step only if there is no other.
+void GyroHeading::note(State now) {
+  if (now != State::running && (now != State::saturated || worst_ == State::running)) worst_ = now;
+}
+
+void GyroHeading::hold() {
+  if (held_ticks_ == 0) return;
+  sum_ += held_ticks_ * about_up_;
+  age_ticks_ = std::min(age_ticks_ + held_ticks_, kSilence_ticks + 1);
+  held_ticks_ = 0;
+  note(age_ticks_ <= kSilence_ticks ? of_sample_ : State::silent);
 }
 
 void GyroHeading::take_sample(const hal::GyroReading& reading) {
+  hold();
   sample_us_ = reading.time_us;
   age_ticks_ = 0;
-  same_ = reading.rate == rate_ ? std::min(same_ + 1, kFrozen_samples) : 0;
+  same_ = hal::same_rate(reading.rate, rate_) ? std::min(same_ + 1, kFrozen_samples) : 0;
   rate_ = reading.rate;
   temperature_cC_ = reading.temperature_cC;
   if (reading.count_nradps != count_nradps_) note_scale(reading.count_nradps);
@@ -165,17 +172,18 @@ GyroHeading::Wheels GyroHeading::wheels_of(const Drive& drive) {
 
 GyroHeading::Wheels GyroHeading::wheels_at_lag() const {
   const auto steps = static_cast<std::size_t>(lag_ticks_ / kTicks);
-  const std::int32_t rest = lag_ticks_ % kTicks;
+  constexpr auto kTenth_31 = static_cast<std::int32_t>((std::int64_t{1} << 31) / kTicks);
+  const std::int32_t rest_31 = lag_ticks_ % kTicks * kTenth_31;
   const Wheels& newer = history_[(at_ + kHistory - steps) % kHistory];
   const Wheels& older = history_[(at_ + kHistory - steps - 1) % kHistory];
-  const auto between = [rest](std::uint32_t to, std::uint32_t from) {
+  const auto between = [rest_31](std::uint32_t to, std::uint32_t from) {
     const auto whole = static_cast<std::int32_t>(to - from);
-    return to - static_cast<std::uint32_t>(std::int64_t{whole} * rest / kTicks);
+    return to - static_cast<std::uint32_t>(mul_wide(whole, rest_31) >> 31);
   };
   return {between(newer.theta_32, older.theta_32), between(newer.path_20, older.path_20)};
 }
 
-void GyroHeading::step_filter(const Drive& drive) {
+void GyroHeading::make_step(const Drive& drive) {
   const Wheels newest = wheels_of(drive);
   at_ = (at_ + 1) % kHistory;
   history_[at_] = newest;
@@ -184,6 +192,10 @@ void GyroHeading::step_filter(const Drive& drive) {
            now.path_20 - lagging_.path_20};
   lagging_ = now;
   sum_ = 0;
+}
+
+void GyroHeading::step_filter() {
+  if (std::exchange(partial_, false)) return;
   const bool good = worst_ == State::running;
   // A saturated gyro says that the robot turns at least so far. If that is further than the wheels say, it is the slip that must
   // not be missed: a hard kick.

@@ -26,7 +26,8 @@ struct UnseenTurn {
 /// the steps by linear interpolation. While there is no good reading the pose follows the wheels, and state() says why. Only a gyro
 /// that is saturated beyond what the wheels say is followed.
 ///
-/// Cost    a sum in most ticks. Of ten ticks one advances the filter, one the watch for slips, and one the pose.
+/// Cost    a sum in most ticks. Of ten ticks one makes a step, one advances the filter with it, one the watch for slips, and one
+///         the pose.
 class GyroHeading {
  public:
   using State = protocol::GyroState;
@@ -44,8 +45,11 @@ class GyroHeading {
   /// Precondition: the robot stands, or only gains have changed.
   void configure(const Configuration& configuration, const Drive& drive);
 
-  /// Called once a tick, after the drive. True in one tick of ten while a slip goes on that the parameters let stop the robot, so
-  /// that one which began without power is still seen by a robot that is given power.
+  /// The parameters name an axis.
+  bool in_use() const { return axis_ != 0; }
+
+  /// Called once a tick, after the drive. Precondition: in_use(). True in one tick of ten while a slip goes on that the parameters
+  /// let stop the robot, so that one which began without power is still seen by a robot that is given power.
   bool advance(const hal::GyroReading& reading, const Drive& drive, std::uint64_t now_us);
 
   /// The robot's pose was set: this one is the same.
@@ -60,29 +64,34 @@ class GyroHeading {
 
  private:
   static constexpr int kTicks = HeadingFilter::kStep_ms;
-  static constexpr std::size_t kHistory = 32;  // steps; the longest lag is 25
+  static_assert(kTicks == Drive::kPhases);
+  static constexpr std::uint32_t kFilterPhase = 1;  // a path is corrected in none of the four phases
+  static constexpr std::size_t kHistory = 32;       // steps; the longest lag is 25
   struct Wheels {
     std::uint32_t theta_32 = 0, path_20 = 0;  // both wrap
   };
 
-  bool in_use() const { return axis_ != 0; }
-  State take(const hal::GyroReading& reading);
+  /// The newest sample was held for some ticks: its part of the step.
+  void hold();
+  /// This was so in the present step.
+  void note(State now);
   [[gnu::noinline]] void take_sample(const hal::GyroReading& reading);
   static State of_board(hal::GyroReading::State state);
   void note_scale(std::uint32_t count_nradps);
   Wheels wheels_of(const Drive& drive);
   Wheels wheels_at_lag() const;
-  void step_filter(const Drive& drive);
+  void make_step(const Drive& drive);
+  void step_filter();
   void step_watch(std::uint64_t now_us);
   void step_pose(const Drive& drive, std::uint64_t now_us);
   void begin_at(const Drive& drive);
 
   std::int32_t axis_ = 0;  // of the sensor, 1 to 3; negative: it points down; 0: the gyro is not used
   std::int32_t sum_ = 0;   // of the readings in this step, counts
-  int ticks_ = 0;          // in this step
   State state_ = State::off, worst_ = State::off;
   std::uint64_t sample_us_ = 0;
-  int age_ticks_ = 0;                   // of the newest sample
+  int age_ticks_ = 0;                   // of the newest sample, without the ticks that it is held now
+  int held_ticks_ = 0;                  // that are not yet in the sum
   std::array<std::int16_t, 3> rate_{};  // of the newest sample
   std::int32_t about_up_ = 0;           // of these the rate about the vertical axis, counter-clockwise
   State of_sample_ = State::silent;
@@ -93,6 +102,7 @@ class GyroHeading {
   SlipWatch watch_;
   HeadingStep step_;
   bool stepped_ = false;  // the filter was advanced with step_
+  bool partial_ = true;   // the present step began within the ten ticks, and is left out
   std::uint32_t count_nradps_ = 0;
   std::int64_t count_48_ = 0;  // turn of a count held for a tick, 2^-48 turn
   std::int32_t scale_30_ = 1 << 30, lag_ticks_ = 0;

@@ -68,7 +68,8 @@ bool SegmentPath::settled(bool wheels_stopped) {
 }
 
 void SegmentPath::end(std::uint64_t now_us) {
-  Segment left = follower_.profile().rest();
+  Segment left;
+  if (follower_.profile().was_cut()) left = follower_.profile().rest();
   if (left.length_nm != 0 || left.angle_32 != 0 || left.dwell_ms != 0) {
     left.speed_umps = running_.segment.speed_umps;
     left.yaw_rate_uradps = running_.segment.yaw_rate_uradps;

@@ -47,8 +47,8 @@ class SegmentPath {
   void begin_next(std::uint64_t now_us);
   /// Brings the reference to rest on the path, for a pause.
   void cut_short() { follower_.cut_short(); }
-  /// One tick on the path.
-  PathFollower::Command advance(const Pose& pose) { return follower_.advance(pose); }
+  /// One tick on the path, as PathFollower has it.
+  PathFollower::Command advance(const Pose& pose, bool corrects) { return follower_.advance(pose, corrects); }
   /// The reference has come to the end of the segment. From then on settled() is asked in every tick.
   bool arrived() const { return follower_.arrived(); }
   /// The robot rests where the reference does, or will not get any closer.

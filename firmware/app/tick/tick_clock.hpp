@@ -21,7 +21,7 @@ class TickClock {
       window_us_ = now_us;
       return true;
     }
-    bool on_time = gap_us >= kLeast_us && gap_us <= kMost_us;
+    bool on_time = gap_us - kLeast_us <= kMost_us - kLeast_us;
     if (gap_us > longest_us_) longest_us_ = gap_us;
     if (!on_time) {  // reported now, so it must not be reported again at the end of its thousand
       window_us_ = now_us;

@@ -17,13 +17,14 @@ class FaultWatch {
  public:
   /// Called once a tick, before the tick moves anything, and before faults are cleared. It notes the faults
   /// that the tick before has found, and those that the main loop has raised since. `then_us` is the time of
-  /// the tick before. Not inlined: that would take registers from control and odometry.
-  [[gnu::noinline]] void watch(const Drive& drive, std::uint64_t then_us, std::int32_t battery_mv) {
+  /// the tick before.
+  void watch(const Drive& drive, std::uint64_t then_us, std::int32_t battery_mv) {
     const std::uint32_t mask = drive.faults().mask();
     const std::uint32_t fresh = (mask & ~seen_) | at_start_;
-    if (fresh != 0) note(fresh, drive.wheels().speeds(), then_us, battery_mv);
+    if (fresh != 0) [[unlikely]]
+      note(fresh, drive.wheels().speeds(), then_us, battery_mv);
     seen_ = mask;
-    mode_ = drive.mode();
+    manner_ = drive.manner();
   }
 
   /// The next watch() also notes this fault, which is not latched.
@@ -34,7 +35,8 @@ class FaultWatch {
   FaultCircumstances pop() { return pending_.pop(); }
 
  private:
-  void note(std::uint32_t fresh, const WheelSpeeds& speeds, std::uint64_t then_us, std::int32_t battery_mv) {
+  [[gnu::noinline]] void note(std::uint32_t fresh, const WheelSpeeds& speeds, std::uint64_t then_us,
+                              std::int32_t battery_mv) {
     at_start_ = 0;
     for (unsigned i = 1; i < 32; ++i) {
       if ((fresh >> i & 1U) == 0) continue;
@@ -43,13 +45,13 @@ class FaultWatch {
                       .left_umps = speeds.left_umps,
                       .right_umps = speeds.right_umps,
                       .fault = static_cast<Fault>(i),
-                      .mode = static_cast<std::uint8_t>(mode_)});
+                      .mode = static_cast<std::uint8_t>(Drive::mode_of(manner_))});
     }
   }
 
   PendingFaults pending_;
   std::uint32_t seen_ = 0, at_start_ = 0;
-  protocol::Mode mode_{};  // before the tick that found the fault
+  Drive::Manner manner_{};  // before the tick that found the fault
 };
 
 /// The tasks that must check in before the watchdog is fed. A task that hangs stops checking in, so the

@@ -161,6 +161,42 @@ TEST(PathFollower, DrivesEveryErrorToZeroForwardAndBackward) {
   }
 }
 
+/// The same drive with a correction in every `period`-th tick.
+Errors end_errors_corrected_every(int period, const Segment& segment, const Errors& off) {
+  Unicycle robot(pose_at(-off.along_m, off.cross_m, -off.heading_rad));
+  PathFollower follower = follower_at({});
+  follower.begin(planned(segment));
+  for (int tick = 0; !follower.arrived(); ++tick)
+    robot.drive(follower.advance(robot.pose(), tick % period == 0).twist);
+  return errors(follower.reference(), robot.pose());
+}
+
+TEST(PathFollower, ACorrectionInEveryFifthTickEndsWhereOneInEachDoes) {
+  for (const Segment& segment : {Segment{3 * kMetre_nm, 0, 0, 0}, Segment{0, kTurn_32 / 2, 0, 0},
+                                 Segment{2 * kMetre_nm, -kTurn_32 / 3, 0, 0}}) {
+    const Errors off{0.02L, -0.02L, 0.03L};
+    const Errors each = end_errors_corrected_every(1, segment, off);
+    const Errors fifth = end_errors_corrected_every(5, segment, off);
+    // The errors fall with rates of 2 to 8 1/s, so a correction that is 5 ms old is at most 4 % off.
+    EXPECT_PRED_FORMAT3(tests::near, fifth.along_m, each.along_m, 4e-4L);
+    EXPECT_PRED_FORMAT3(tests::near, fifth.cross_m, each.cross_m, 4e-4L);
+    EXPECT_PRED_FORMAT3(tests::near, fifth.heading_rad, each.heading_rad, 1e-3L);
+  }
+}
+
+TEST(PathFollower, TheReferenceEndsAtTheExactEndHoweverSeldomItIsCorrected) {
+  PathFollower follower = follower_at({});
+  for (int side = 0; side < 4; ++side) {
+    for (const Segment& segment : {Segment{3 * kMetre_nm, 0, 0, 0}, Segment{0, -kTurn_32 / 4, 0, 0}}) {
+      follower.begin(planned(segment));
+      for (int tick = 1; !follower.arrived(); ++tick) follower.advance({}, tick % 7 == 0);
+    }
+  }
+  EXPECT_EQ(follower.reference().theta, Angle{});
+  EXPECT_PRED_FORMAT3(tests::near, tests::metres(follower.reference().x), 0, 2 * tests::kNotYetGiven_m);
+  EXPECT_PRED_FORMAT3(tests::near, tests::metres(follower.reference().y), 0, 2 * tests::kNotYetGiven_m);
+}
+
 TEST(PathFollower, IsCloseWithinHalfAMillimetreAlongAndAMilliradianWhateverTheOffsetAcross) {
   struct Case {
     Real along_m, cross_m, heading_rad;
