@@ -7,6 +7,7 @@ Board::Board() {
   system_.start();
   encoders_.start();
   battery_.start();
+  i2c_.start();
   uart_.start();
   serial_number_ = serial_number(system_.unique_id());
   usb_.start({serial_number_.data(), serial_number_.size()});

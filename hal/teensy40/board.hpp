@@ -2,11 +2,13 @@
 
 #include <array>
 
+#include "hal/i2c/gyro.hpp"
 #include "hal/interface/board.hpp"
 #include "hal/teensy40/battery.hpp"
 #include "hal/teensy40/clock.hpp"
 #include "hal/teensy40/encoders.hpp"
 #include "hal/teensy40/flash.hpp"
+#include "hal/teensy40/i2c.hpp"
 #include "hal/teensy40/motors.hpp"
 #include "hal/teensy40/ports.hpp"
 #include "hal/teensy40/system.hpp"
@@ -23,6 +25,17 @@
 /// A program has one of them.
 namespace astro::teensy40 {
 
+/// A gyro on the I2C bus, if there is one.
+class Gyro {
+ public:
+  Gyro(I2c& bus, const Clock& clock) : sensor_(bus), clock_(clock) {}
+  const hal::GyroReading& read() noexcept { return sensor_.read(clock_); }
+
+ private:
+  i2c::Gyro<I2c> sensor_;
+  const Clock& clock_;
+};
+
 class Board {
  public:
   Board();
@@ -33,6 +46,7 @@ class Board {
   Encoders& encoders() { return encoders_; }
   Motors& motors() { return motors_; }
   Battery& battery() { return battery_; }
+  Gyro& gyro() { return gyro_; }
   Ports& ports() { return ports_; }
   Flash& flash() { return flash_; }
   System& system() { return system_; }
@@ -43,6 +57,8 @@ class Board {
   Motors motors_;
   Encoders encoders_;
   Battery battery_;
+  I2c i2c_;
+  Gyro gyro_{i2c_, clock_};
   Flash flash_;
   Uart uart_;
   UsbSerial usb_;
@@ -51,6 +67,6 @@ class Board {
   std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
 };
 
-static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");
+static_assert(hal::Board<Board> && hal::HasGyro<Board>, "this port no longer satisfies hal/interface");
 
 }  // namespace astro::teensy40

@@ -31,6 +31,8 @@ inline constexpr std::uint32_t kOutput = 0x0000'0020;    // drive 4 of 7: enough
 inline constexpr std::uint32_t kPullUp = 0x0001'F038;    // input, 22 kohm up, hysteresis
 inline constexpr std::uint32_t kTransmit = 0x0000'00D9;  // a fast output
 inline constexpr std::uint32_t kAnalog = 0x0000'0000;    // no keeper: it would bend the divider's voltage
+inline constexpr std::uint32_t kTwoWire =
+    0x0001'F860;  // open drain with 22 kohm up, for a bus without a sensor
 }  // namespace setting
 
 /// Bits of GPIO7: all pins that software moves or reads belong to it.
@@ -42,6 +44,11 @@ inline constexpr std::uint32_t kLeftPwm = 1U << 10, kRightPwm = 1U << 11;  // un
 inline constexpr std::uint32_t kDriverError = 1U << 16;                    // low: the driver chip reports
 inline constexpr std::uint32_t kLed = 1U << 3;
 }  // namespace gpio7
+
+/// Bits of GPIO1, which frees the I2C bus.
+namespace gpio1 {
+inline constexpr std::uint32_t kScl = 1U << 16, kSda = 1U << 17;
+}  // namespace gpio1
 
 #define PAD(name) \
   { iomuxc::SW_MUX_CTL_PAD_GPIO_##name.value, iomuxc::SW_PAD_CTL_PAD_GPIO_##name.value }
@@ -73,6 +80,15 @@ inline constexpr std::array<Pin, 2> kUartPins{{
 }};
 inline constexpr std::array<Pin, 1> kBatteryPins{{
     {14, PAD(AD_B1_02), kGpio, setting::kAnalog, {}},  // A0: ADC1 channel 7
+}};
+inline constexpr std::uint32_t kReadBack = 1U << 4;  // SION: the controller sees what it drives
+inline constexpr std::array<Pin, 2> kI2cPins{{
+    {19, PAD(AD_B1_00), 3 | kReadBack, setting::kTwoWire, SOURCE(LPI2C1_SCL, 1)},
+    {18, PAD(AD_B1_01), 3 | kReadBack, setting::kTwoWire, SOURCE(LPI2C1_SDA, 1)},
+}};
+inline constexpr std::array<Pin, 2> kI2cPinsByHand{{
+    {19, PAD(AD_B1_00), kGpio | kReadBack, setting::kTwoWire, {}},
+    {18, PAD(AD_B1_01), kGpio | kReadBack, setting::kTwoWire, {}},
 }};
 #undef SOURCE
 #undef PAD

@@ -117,10 +117,11 @@ Ccm::Ccm(Machine& machine, Analog& analog, Dcdc& dcdc)
               {ccm::CBCMR.value, 0x2DAE'8324},
               {ccm::CSCMR1.value, 0x0490'0000},
               {ccm::CSCDR1.value, 0x0649'0B00},
+              {ccm::CSCDR2.value, 0x0002'9150},
               {ccm::CLPCR.value, 0x79},
               {ccm::CCGR0.value, ~0U},
               {ccm::CCGR1.value, ~(ccm::CCGR1_CG6.mask() | ccm::CCGR1_CG8.mask())},
-              {ccm::CCGR2.value, ~(ccm::CCGR2_CG6.mask() | ccm::CCGR2_CG11.mask())},
+              {ccm::CCGR2.value, ~(ccm::CCGR2_CG3.mask() | ccm::CCGR2_CG6.mask() | ccm::CCGR2_CG11.mask())},
               {ccm::CCGR3.value, ~ccm::CCGR3_CG3.mask()},
               {ccm::CCGR4.value, 0x0000'FFFF},
               {ccm::CCGR5.value, ~0U},
@@ -163,6 +164,12 @@ std::uint32_t Ccm::uart_hz() const {
   const std::uint32_t word = value(ccm::CSCDR1.value);
   return (ccm::CSCDR1_UART_CLK_SEL.of(word) != 0 ? 24'000'000 : 80'000'000) /
          (1 + ccm::CSCDR1_UART_CLK_PODF.of(word));
+}
+
+std::uint32_t Ccm::i2c_hz() const {
+  const std::uint32_t word = value(ccm::CSCDR2.value);
+  return (ccm::CSCDR2_LPI2C_CLK_SEL.of(word) != 0 ? 24'000'000 : 60'000'000) /
+         (1 + ccm::CSCDR2_LPI2C_CLK_PODF.of(word));
 }
 
 std::uint32_t Ccm::timer_hz() const {

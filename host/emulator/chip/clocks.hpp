@@ -77,6 +77,7 @@ class Ccm : public Stored {
   std::uint32_t core_mhz() const;
   std::uint32_t bus_mhz() const;
   std::uint32_t uart_hz() const;
+  std::uint32_t i2c_hz() const;
   std::uint32_t timer_hz() const;  // PIT
 
  private:

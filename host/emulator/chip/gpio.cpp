@@ -47,6 +47,7 @@ void Gpio::write(std::uint32_t offset, std::uint32_t value) {
     machine_.fail({fmt::format("GPIO{} IMR: interrupts of the pins are not modelled", port_),
                    GpioProblem::interrupts_not_modelled,
                    {std::to_string(port_)}});
+  on_change();
 }
 
 }  // namespace astro::emulator

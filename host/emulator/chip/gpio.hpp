@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "host/emulator/chip/iomuxc.hpp"
 
@@ -24,6 +25,8 @@ class Gpio : public Model {
   /// Levels of the pins that are outputs.
   std::uint32_t driven() const { return data_ & direction_; }
   std::uint32_t outputs() const { return direction_; }
+  /// Called when outputs, or what they drive, may have changed.
+  std::function<void()> on_change = [] {};
   /// Sets the levels that the world applies to the pins that are inputs.
   void set_inputs(std::uint32_t levels) { inputs_ = levels; }
 

@@ -27,6 +27,8 @@ Teensy::Teensy(const std::filesystem::path& hex, const sim::Config& robot, HandO
   chip_.remember_reset = [this](Reset cause) { src_.remember(cause); };
   gpr_.on_layout = [this](const Memory::Layout& layout) { chip_.set_layout(layout); };
   flash_.on_busy = [this](bool busy) { chip_.set_flash_busy(busy); };
+  gpio1_.on_change = [this] { lpi2c_.pins_changed(); };
+  if (robot.gyro) plug<Fxas21002c>();
   map();
   chip_.start(Reset::power_on);
 }
@@ -56,6 +58,7 @@ void Teensy::map() {
   add(wdog1_, WDOG1.base, Gate{3, 8});
   add(wdog2_, WDOG2.base, Gate{5, 5});
   add(lpuart_, LPUART6.base, Gate{3, 3});
+  add(lpi2c_, LPI2C1.base, Gate{2, 3});
   add(xbara_, XBARA1.base, Gate{2, 11});
   add(enc1_, ENC1.base, Gate{4, 12});
   add(enc2_, ENC2.base, Gate{4, 13});
@@ -82,6 +85,7 @@ bool Teensy::run_until(const std::function<bool()>& done, std::chrono::nanosecon
 
 void Teensy::power_cycle() {
   flash_.restore_power();
+  if (gyro_) gyro_->power_on();
   // Without power the RAM loses its content.
   for (const Memory::Range& range : chip_.memory().ranges())
     if (range.writable) std::fill(range.bytes.begin(), range.bytes.end(), std::uint8_t{0xA5});

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 #include "hal/sim/config.hpp"
 #include "host/emulator/chip/adc.hpp"
@@ -13,12 +14,14 @@
 #include "host/emulator/chip/flexspi.hpp"
 #include "host/emulator/chip/gpio.hpp"
 #include "host/emulator/chip/iomuxc.hpp"
+#include "host/emulator/chip/lpi2c.hpp"
 #include "host/emulator/chip/lpuart.hpp"
 #include "host/emulator/chip/pit.hpp"
 #include "host/emulator/chip/reset.hpp"
 #include "host/emulator/chip/watchdogs.hpp"
 #include "host/emulator/core/chip.hpp"
 #include "host/emulator/robot/controller.hpp"
+#include "host/emulator/robot/gyro_chips.hpp"
 #include "host/emulator/robot/world.hpp"
 
 namespace astro::emulator {
@@ -55,6 +58,15 @@ class Teensy {
 
   Pit& timers() { return pit_; }
   Lpuart& serial() { return lpuart_; }
+  Lpi2c& i2c() { return lpi2c_; }
+  /// The chip at the I2C bus: a FXAS21002C if the robot has a gyro, none otherwise.
+  GyroChip* gyro() { return gyro_.get(); }
+  /// Puts another chip in its place: `plug<Mpu6050>()`. It measures what the robot's gyro would.
+  template <class Chip>
+  void plug() {
+    gyro_ = std::make_unique<Chip>(chip_, [this] { return world_.gyro_radps(); });
+    lpi2c_.devices = {gyro_.get()};
+  }
   UsbController& usb() { return usb_; }
   World& world() { return world_; }
   FlashChip& flash() { return flash_; }
@@ -90,6 +102,7 @@ class Teensy {
   Rtwdog rtwdog_{chip_};
   Wdog wdog1_{chip_, 1}, wdog2_{chip_, 2};
   Lpuart lpuart_{chip_, ccm_, iomuxc_};
+  Lpi2c lpi2c_{chip_, ccm_, iomuxc_, gpio1_};
   Xbara xbara_;
   Enc enc1_{chip_, 1}, enc2_{chip_, 2};
   EncoderWires encoder_wires_{iomuxc_, gpr_, xbara_, enc1_, enc2_};
@@ -100,6 +113,7 @@ class Teensy {
   UsbPhy usb_phy_;
   UsbController usb_{chip_, [this] { return analog_.usb_pll_ready() && usb_phy_.ready(); }};
   World world_;
+  std::unique_ptr<GyroChip> gyro_;
 };
 
 }  // namespace astro::emulator

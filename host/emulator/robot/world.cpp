@@ -33,6 +33,7 @@ World::World(Machine& machine, const sim::Config& config, const Wires& wires)
       restart_slip_(config.restart_slip_rad),
       chassis_(sim::true_geometry(config)),
       shafts_(config),
+      gyro_(config),
       supply_V_(config.supply_V) {
   wires_.adc.pin_V = [this] { return drivetrain_.bus_V() * kDivider; };
 }
@@ -68,8 +69,21 @@ std::array<std::int32_t, 2> World::edges(const sim::Pair& wheels_rad) {
   return {wrapping_difference(after.left, before.left), wrapping_difference(after.right, before.right)};
 }
 
+std::array<double, 3> World::gyro_radps() {
+  std::array<double, 3> radps{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    radps[axis] = gyro_.read().rate[axis] * sim::Gyro::kCount_radps;
+  return radps;
+}
+
 void World::event() {
   machine_.wake(*this, machine_.now() + kStep);
+  move();
+  if (turning_radps_ != 0) chassis_.jump(turning_radps_ * 1e-3);
+  if (gyro_.exists()) gyro_.advance(chassis_.pose().theta_rad, machine_.now() / kCyclesPerMicrosecond);
+}
+
+void World::move() {
   const Bridges now = bridges();
   sim::Drive drive{.supply_V = supply_V_, .supply_ohm = config_.supply_ohm};
   const auto& wiring = config_.wiring;

@@ -6,6 +6,7 @@
 #include "hal/sim/config.hpp"
 #include "hal/sim/drivetrain.hpp"
 #include "hal/sim/encoder.hpp"
+#include "hal/sim/gyro.hpp"
 #include "hal/sim/restart_slip.hpp"
 #include "hal/sim/slip.hpp"
 #include "host/emulator/chip/adc.hpp"
@@ -37,6 +38,10 @@ class World : public Model {
   void reset() override;
 
   sim::Pose truth() const { return chassis_.pose(); }
+  /// What a gyro on the robot measures about its own axes.
+  std::array<double, 3> gyro_radps();
+  /// Turns the robot so that no wheel notices, as long as time goes by.
+  void turn_body(double rate_radps) { turning_radps_ = rate_radps; }
   const sim::Drivetrain& drivetrain() const { return drivetrain_; }
   void set_load(Side side, const sim::WheelLoad& load) { drivetrain_.set_load(side, load); }
   void set_supply_V(double volts) { supply_V_ = volts; }
@@ -54,6 +59,7 @@ class World : public Model {
   Bridges bridges() const;
 
  private:
+  void move();
   std::array<std::int32_t, 2> edges(const sim::Pair& wheels_rad);
 
   Machine& machine_;
@@ -64,6 +70,8 @@ class World : public Model {
   sim::RestartSlip restart_slip_;
   sim::Chassis chassis_;
   sim::Encoders shafts_;
+  sim::Gyro gyro_;
+  double turning_radps_ = 0;
   double supply_V_;
   std::array<bool, 2> unplugged_{};
   bool fault_ = false;

@@ -14,6 +14,7 @@ namespace astro::target {
 /// The board by remote: satisfies hal::Board, and each call is made on the processor. `Puppet` runs the puppet image
 /// (tests/target/images/puppet_program.hpp):
 ///   kName, kFirstPort   the board's name; its port that counts as the first here
+///   kHasGyro            the board has a gyro
 ///   call(call, a, b)    makes a call and returns its answer
 ///   mailbox()           the bytes that go with a call and come back
 ///   in_bootloader()
@@ -47,6 +48,15 @@ class RemoteBoard {
   struct Battery {
     Puppet& puppet;
     std::int32_t millivolts() noexcept { return static_cast<std::int32_t>(puppet.call(Call::battery)); }
+  };
+  struct Gyro {
+    Puppet& puppet;
+    hal::GyroReading read() noexcept {
+      puppet.call(Call::gyro);
+      hal::GyroReading reading;
+      std::memcpy(&reading, puppet.mailbox().bytes, sizeof(reading));
+      return reading;
+    }
   };
   struct Ports {
     static constexpr int kPorts = 1;
@@ -104,6 +114,7 @@ class RemoteBoard {
   Encoders& encoders() { return encoders_; }
   Motors& motors() { return motors_; }
   Battery& battery() { return battery_; }
+  Gyro& gyro() requires Puppet::kHasGyro { return gyro_; }
   Ports& ports() { return ports_; }
   Flash& flash() { return flash_; }
   System& system() { return system_; }
@@ -115,6 +126,7 @@ class RemoteBoard {
   Encoders encoders_{puppet_};
   Motors motors_{puppet_};
   Battery battery_{puppet_};
+  Gyro gyro_{puppet_};
   Ports ports_{puppet_};
   Flash flash_{puppet_};
   System system_{puppet_};

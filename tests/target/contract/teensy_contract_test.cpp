@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "tests/contract/board_contract.hpp"
+#include "tests/contract/gyro_contract.hpp"
 #include "tests/contract/io_contract.hpp"
 #include "tests/target/contract/teensy_rig.hpp"
 
@@ -30,6 +31,12 @@ class TeensyRig {
     return {on_grid(state.duty[0], board_.motors().asked.left),
             on_grid(state.duty[1], board_.motors().asked.right)};
   }
+  void turn_body(double rate_radps) { teensy().world().turn_body(rate_radps); }
+  void plug_gyro(bool plugged) {
+    if (plugged) teensy().gyro()->power_on();
+    teensy().gyro()->fault = plugged ? emulator::SensorFault::none : emulator::SensorFault::unplugged;
+  }
+  std::size_t up() { return 2; }
   void set_driver_fault(bool fault) { teensy().world().set_driver_fault(fault); }
   bool host_send(int, std::span<const std::uint8_t> bytes) {
     teensy().serial().send(bytes);
@@ -49,13 +56,15 @@ class TeensyRig {
     return board_.system().unique_id();
   }
 
+ protected:
+  emulator::Teensy& teensy() { return puppet_.teensy(); }
+
  private:
   static std::int16_t on_grid(double duty, std::int16_t asked) {
     constexpr double kHalfCount = 0.5 / 7500;
     if (std::abs(duty - asked / 32767.0) <= kHalfCount) return asked;
     return static_cast<std::int16_t>(std::lround(duty * 32767));
   }
-  emulator::Teensy& teensy() { return puppet_.teensy(); }
 
   target::Puppet puppet_{1};
   target::TeensyBoard board_{puppet_};
@@ -63,6 +72,15 @@ class TeensyRig {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Teensy40, BoardContract, TeensyRig);
 INSTANTIATE_TYPED_TEST_SUITE_P(Teensy40, IoContract, TeensyRig);
+
+/// The same with each of the chips that the board knows.
+template <class Chip>
+class TeensyWith : public TeensyRig {
+ public:
+  TeensyWith() { teensy().plug<Chip>(); }
+};
+using TeensyGyros = testing::Types<TeensyRig, TeensyWith<emulator::Mpu6050>, TeensyWith<emulator::Icm20948>>;
+INSTANTIATE_TYPED_TEST_SUITE_P(Teensy40, GyroContract, TeensyGyros);
 
 }  // namespace
 }  // namespace astro::contract

@@ -16,6 +16,7 @@ class Puppet {
   static constexpr std::string_view kName = "teensy40";
   // The serial port; USB needs a host that enumerates it (tests/target/usb).
   static constexpr int kFirstPort = 1;
+  static constexpr bool kHasGyro = true;
 
   explicit Puppet(std::uint64_t seed) : teensy_(ASTRO_IMAGE_DIR "/puppet.hex", with(seed)) {
     teensy_.flash().times = {10 * emulator::kCyclesPerMicrosecond, 100 * emulator::kCyclesPerMicrosecond};
@@ -52,6 +53,7 @@ class Puppet {
   static sim::Config with(std::uint64_t seed) {
     sim::Config config;
     config.seed = seed;
+    config.gyro.emplace();
     return config;
   }
   static std::uint32_t at(const std::string& name) {
@@ -64,6 +66,6 @@ class Puppet {
 };
 
 using TeensyBoard = RemoteBoard<Puppet>;
-static_assert(hal::Board<TeensyBoard>);
+static_assert(hal::Board<TeensyBoard> && hal::HasGyro<TeensyBoard>);
 
 }  // namespace astro::target

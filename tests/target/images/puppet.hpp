@@ -15,6 +15,7 @@ enum class Call : std::uint32_t {
   coast,
   fault,
   battery,
+  gyro,
   read_port,
   write_port,
   room,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 
 #include "hal/interface/board.hpp"
 #include "tests/target/images/puppet.hpp"
@@ -68,6 +69,12 @@ void call_motion(Board& board, Call call) {
   if (call == Call::coast) board.motors().coast();
   if (call == Call::fault) answer(board.motors().fault());
   if (call == Call::battery) answer(static_cast<std::uint32_t>(board.battery().millivolts()));
+  if constexpr (hal::HasGyro<Board>) {
+    if (call == Call::gyro) {
+      const hal::GyroReading& reading = board.gyro().read();
+      std::memcpy(puppet_mailbox.bytes, &reading, sizeof(reading));
+    }
+  }
 }
 
 /// The whole program.

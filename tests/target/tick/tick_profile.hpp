@@ -23,13 +23,15 @@ class TickProfile {
     safety,
     pwm,
     motion,
+    gyro,
     clock,
     battery,
     rest,
     kParts
   };
-  static constexpr std::array<const char*, kParts> kNames{
-      "encoders", "speed", "control", "odometry", "safety", "PWM", "motion", "clock", "battery", "rest"};
+  static constexpr std::array<const char*, kParts> kNames{"encoders", "speed",   "control", "odometry",
+                                                          "safety",   "PWM",     "motion",  "gyro",
+                                                          "clock",    "battery", "rest"};
 
   /// Counts every tick of `teensy` from now on.
   TickProfile(emulator::Teensy& teensy, const std::string& elf);

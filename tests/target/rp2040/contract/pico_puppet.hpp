@@ -24,6 +24,7 @@ class PicoPuppet {
  public:
   static constexpr std::string_view kName = "rp2040";
   static constexpr int kFirstPort = 0;
+  static constexpr bool kHasGyro = false;
 
   explicit PicoPuppet(int seed) {
     std::array<int, 2> to{}, from{};

@@ -1,0 +1,198 @@
+#include "hal/i2c/gyro.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+namespace astro::i2c {
+namespace {
+
+using State = hal::GyroReading::State;
+
+/// A bus whose transfers take as many calls as a test says, with the registers of one chip.
+class FakeBus {
+ public:
+  void begin_read(std::uint8_t address, std::uint8_t from, std::uint8_t count) noexcept {
+    begin(address);
+    read.clear();
+    for (int i = 0; i < count; ++i) read.push_back(registers[static_cast<std::uint8_t>(from + i)]);
+    count_ = count;
+  }
+  void begin_write(std::uint8_t address, std::uint8_t number, std::uint8_t value) noexcept {
+    begin(address);
+    written.push_back({number, value});
+  }
+  Transfer advance() noexcept {
+    if (hangs && !releasing) return Transfer::busy;
+    if (--calls_left_ > 0) return Transfer::busy;
+    if (releasing) {
+      releasing = false;
+      return hangs ? Transfer::lost : Transfer::done;
+    }
+    return there_ ? answer : Transfer::refused;
+  }
+  std::span<const std::uint8_t> bytes() const noexcept { return {read.data(), count_}; }
+  void release() noexcept {
+    ++releases;
+    releasing = true;
+    calls_left_ = 22;
+  }
+
+  std::uint8_t chip = 0;  // its address; 0: none
+  std::map<std::uint8_t, std::uint8_t> registers;
+  std::vector<std::pair<std::uint8_t, std::uint8_t>> written;
+  std::vector<std::uint8_t> asked;  // addresses
+  Transfer answer = Transfer::done;
+  int calls = 2, releases = 0;
+  bool hangs = false, releasing = false;
+  std::vector<std::uint8_t> read;
+
+ private:
+  void begin(std::uint8_t address) {
+    asked.push_back(address);
+    there_ = address == chip;
+    calls_left_ = calls;
+  }
+  int calls_left_ = 0;
+  std::size_t count_ = 0;
+  bool there_ = false;
+};
+static_assert(Bus<FakeBus>);
+
+struct Clock {
+  std::uint64_t now = 0;
+  std::uint64_t now_us() const noexcept { return now; }
+};
+
+struct Rig {
+  FakeBus bus;
+  Clock clock;
+  Gyro<FakeBus> gyro{bus};
+  hal::GyroReading reading;
+
+  const hal::GyroReading& run(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      clock.now += 1000;
+      if (moves)
+        bus.registers[0x06] = static_cast<std::uint8_t>(clock.now / 1000 % 199);  // Z of the FXAS21002C
+      reading = gyro.read(clock);
+    }
+    return reading;
+  }
+  bool moves = true;
+};
+
+void plug_fxas(FakeBus& bus) {
+  bus.chip = 0x20;
+  bus.registers = {{0x0C, 0xD7}, {0x01, 0x01}, {0x02, 0x02}, {0x03, 0xFF}, {0x04, 0xFE}};
+}
+
+TEST(I2cGyro, IsFoundByItsIdentityAtEitherAddressAndStartedFromItsTable) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  EXPECT_EQ(rig.run(300).state, State::running);
+  EXPECT_EQ(rig.reading.rate[0], 0x0102);
+  EXPECT_EQ(rig.reading.rate[1], -2);
+  EXPECT_EQ(rig.reading.count_nradps, 272'708U) << "500 / 32000 degrees a second";
+  ASSERT_EQ(rig.bus.written.size(), gyro_chips::kFxas21002c.size());
+  for (std::size_t i = 0; i < rig.bus.written.size(); ++i)
+    EXPECT_EQ(rig.bus.written[i],
+              (std::pair{gyro_chips::kFxas21002c[i].number, gyro_chips::kFxas21002c[i].value}));
+}
+
+TEST(I2cGyro, TheTemperatureComesWithTheRatesWhereItLiesBesideThem) {
+  Rig rig;
+  rig.bus.chip = 0x69;
+  rig.bus.registers = {{0x75, 0x68}, {0x41, 0xF2}, {0x42, 0x86}};  // -3450
+  rig.run(300);
+  EXPECT_EQ(rig.reading.state, State::running);
+  EXPECT_NEAR(rig.reading.temperature_cC, (-3450 / 340.0 + 36.53) * 100, 1.01);
+}
+
+TEST(I2cGyro, SamplesComeEveryFiveTicksHoweverLongATransferTakesUpToThree) {
+  for (const int calls : {1, 2, 3}) {
+    Rig rig;
+    plug_fxas(rig.bus);
+    rig.bus.calls = calls;
+    rig.run(300);
+    std::uint64_t last_us = rig.run(10).time_us;
+    for (int i = 0; i < 20; ++i) {
+      const std::uint64_t now_us = rig.run(5).time_us;
+      EXPECT_EQ(now_us - last_us, 5000U) << calls;
+      last_us = now_us;
+    }
+  }
+}
+
+TEST(I2cGyro, AStrangerAtItsAddressIsOnlyRead) {
+  Rig rig;
+  rig.bus.chip = 0x68;
+  rig.bus.registers = {{0x75, 0x12}};
+  EXPECT_EQ(rig.run(3000).state, State::absent);
+  EXPECT_TRUE(rig.bus.written.empty());
+}
+
+TEST(I2cGyro, WithoutOneEachAddressIsAskedOnceASecond) {
+  Rig rig;
+  EXPECT_EQ(rig.run(10'000).state, State::absent);
+  EXPECT_NEAR(static_cast<double>(rig.bus.asked.size()), 60, 6);
+  EXPECT_EQ(rig.bus.releases, 0);
+}
+
+TEST(I2cGyro, OneSampleThatFailsIsLeftOutAndFourInARowAreAFailure) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  rig.run(300);
+  rig.bus.answer = Transfer::refused;
+  rig.run(5);
+  rig.bus.answer = Transfer::done;
+  EXPECT_EQ(rig.run(10).state, State::running);
+  rig.bus.answer = Transfer::refused;
+  EXPECT_EQ(rig.run(30).state, State::failed);
+  rig.bus.answer = Transfer::done;
+  EXPECT_EQ(rig.run(1500).state, State::running) << "found again";
+}
+
+TEST(I2cGyro, HalfASampleIsNoSample) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  rig.run(300);
+  const auto before = rig.reading.rate;
+  for (const int gone : {3, 4, 5, 6, 7}) rig.bus.registers[static_cast<std::uint8_t>(gone)] = 0xFF;
+  rig.moves = false;
+  rig.run(12);
+  EXPECT_EQ(rig.reading.rate[1], before[1]);
+  EXPECT_EQ(rig.run(100).state, State::failed);
+}
+
+TEST(I2cGyro, OneThatRepeatsItselfIsStartedAgain) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  rig.run(300);
+  const std::size_t once = rig.bus.written.size();
+  rig.moves = false;
+  EXPECT_EQ(rig.run(150).state, State::running);
+  EXPECT_EQ(rig.run(100).state, State::failed);
+  rig.moves = true;
+  EXPECT_EQ(rig.run(1500).state, State::running);
+  EXPECT_EQ(rig.bus.written.size(), 2 * once);
+}
+
+TEST(I2cGyro, ABusThatHangsIsReleasedAndTheSearchBeginsAnew) {
+  for (const bool at_start : {true, false}) {
+    Rig rig;
+    plug_fxas(rig.bus);
+    if (!at_start) rig.run(300);
+    rig.bus.hangs = true;
+    EXPECT_EQ(rig.run(200).state, at_start ? State::absent : State::failed);
+    rig.run(5000);
+    EXPECT_GE(rig.bus.releases, 4) << "tried again each second";
+    EXPECT_LE(rig.bus.releases, 6);
+    rig.bus.hangs = false;
+    EXPECT_EQ(rig.run(3000).state, State::running);
+  }
+}
+
+}  // namespace
+}  // namespace astro::i2c
