@@ -6,8 +6,8 @@
 /// file named after it.
 ///
 /// Output  what happens to the robot's link on stderr.
-/// Errors  as host/commands/robot/commands.hpp. Ctrl-C ends with 130, and the dashboard with 0; a robot that was armed
-///         by the node or a page is at rest then.
+/// Errors  as host/commands/robot/commands.hpp. Ctrl-C and SIGTERM end with 0; a robot that was armed by the node or a page is at
+///         rest then.
 namespace astro::commands {
 
 /// What launch files of ROS 2 put before their arguments, which end with -- or the command line.

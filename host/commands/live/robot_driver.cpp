@@ -187,7 +187,6 @@ void drive_robot(const std::vector<live::Middleware*>& middlewares, const RobotD
     beside(driver);
     return !console::interrupted();
   });
-  console::check_interrupt();
 }
 
 }  // namespace astro::commands

@@ -30,6 +30,12 @@ struct MonitorOptions {
   std::uint64_t count = 0;  // 0: no end
 };
 
+/// Whoever gave no count ends the command by Ctrl-C; otherwise samples are missing then.
+bool ended(const MonitorOptions& options) {
+  if (options.count > 0) console::check_interrupt();
+  return console::interrupted();
+}
+
 /// Telemetry samples in the order of their arrival.
 class Stream {
  public:
@@ -63,7 +69,7 @@ void print_lines(robot::Client& client, const MonitorOptions& options) {
       print(to_json(sample).dump());
       if (++printed == options.count) return;
     }
-    console::check_interrupt();
+    if (ended(options)) return;
   }
 }
 
@@ -79,7 +85,7 @@ class Monitor {
   void run() {
     while (!quit_wanted()) {
       if (console::interrupted() && !figures_.lost.empty()) throw Error(figures_.lost);
-      console::check_interrupt();
+      if (ended(options_)) return;
       try {
         if (update()) return;
       } catch (const robot::LinkLost& lost) {

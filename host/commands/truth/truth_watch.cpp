@@ -36,9 +36,8 @@ class Watch {
   explicit Watch(const truth::TrackerUrl& url) : link_(truth::open_link(url)), watch_(url.up) {}
 
   void listen_until(microseconds end) {
-    for (microseconds now = truth::LiveSource::steady_now(); now < end;
+    for (microseconds now = truth::LiveSource::steady_now(); now < end && !console::interrupted();
          now = truth::LiveSource::steady_now()) {
-      console::check_interrupt();
       link_->work(now);
       for (const truth::Sighting& sighting : link_->take()) watch_.take(sighting);
       link_->wait(std::chrono::milliseconds(20));
@@ -104,6 +103,7 @@ void run(const WatchOptions& options) {
   bool seen = false, objected = false;
   for (int second = 1; options.seconds == 0 || passed() < options.seconds; ++second) {
     watch.listen_until(begin + second * seconds(1));
+    if (console::interrupted()) break;
     const truth::TrackerReport report = watch.report();
     if (report.poses == 0) {
       console::say(in_words(watch.silence("nothing comes from " + url.place())));
@@ -113,7 +113,9 @@ void run(const WatchOptions& options) {
     if (report.objection && !std::exchange(objected, true)) console::say(in_words(*report.objection));
     print(options.json ? json_of(report).dump() : line_of(report));
   }
-  if (!seen) throw Error(watch.silence("no ground truth came from " + url.place()));
+  if (options.seconds > 0) console::check_interrupt();  // without a time Ctrl-C is how it ends
+  if (!seen && !console::interrupted())
+    throw Error(watch.silence("no ground truth came from " + url.place()));
 }
 
 }  // namespace

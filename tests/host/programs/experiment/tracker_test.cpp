@@ -165,6 +165,17 @@ TEST(TrackerOnTheNetwork, IsWatchedLive) {
   EXPECT_NEAR(report["noise_at_rest"]["heading_rad"].get<double>(), 1e-3, 2e-4);
 }
 
+TEST(TrackerOnTheNetwork, IsWatchedUntilSomebodyEndsIt) {
+  Simulator simulator({"--vrpn-port", "0"});
+  ASSERT_TRUE(support::eventually([&] { return !address_of(simulator).empty(); }));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    support::Program watch({ASTROLABE_PROGRAM, "truth", "watch", address_of(simulator)});
+    EXPECT_TRUE(support::eventually([&] { return watch.out().find("Hz") != std::string::npos; }));
+    watch.send(signal);
+    EXPECT_EQ(watch.wait(), 0) << watch.err();
+  }
+}
+
 TEST(TrackerOnTheNetwork, IsWatchedLiveInRos2AlsoIfItListensOnAllNetworks) {
   setenv("ROS_STATIC_PEERS", "127.0.0.1", 1);
   Simulator simulator({"--ros2-topic", own_topic("watched")});

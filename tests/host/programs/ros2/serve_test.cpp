@@ -177,15 +177,15 @@ TEST(Serve, EndsAtCtrlCAndTellsItsViewers) {
   Watcher watcher(served.port());
   ASSERT_TRUE(watcher.hears([&] { return !watcher.information().is_null(); }));
   served.program().send(SIGINT);
-  EXPECT_EQ(served.program().wait(), 130);
+  EXPECT_EQ(served.program().wait(), 0);
   EXPECT_TRUE(watcher.hears([&] { return watcher.viewer().ended(); }));
 }
 
 TEST(Serve, ABareNumberAsThePortIsThatOfTheViewers) {
   support::Program program({ASTROLABE_PROGRAM, "serve", "--foxglove", "--port", "0"});  // any that is free
   EXPECT_TRUE(eventually([&] { return program.err().find("ws://localhost:") != std::string::npos; }));
-  program.send(SIGINT);
-  EXPECT_EQ(program.wait(), 130);
+  program.send(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
 }
 
 TEST(Serve, WrongPortsAreRefusedAsWrongUsage) {
