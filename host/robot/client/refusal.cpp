@@ -22,16 +22,19 @@ std::string addition(protocol::ErrorCode code, std::uint16_t detail) {
   }
 }
 
-/// The clause of protocol::meaning without its explanation of the detail, which is for programs.
+/// The clause of protocol::meaning without its explanation of the detail, which is for programs; for what happens to people
+/// every day, what to do.
 std::string clause(protocol::ErrorCode code) {
+  if (code == protocol::ErrorCode::not_armed)
+    return "arm it first: nobody has, or somebody has stopped or paused it since";
   const std::string_view all = protocol::meaning(code);
   return std::string(all.substr(0, all.find("; detail")));
 }
 
 std::string sentence(std::string_view what, protocol::ErrorCode code, std::uint16_t detail,
                      std::string_view why) {
-  return "the robot refused " + std::string(what) + " (" + std::string(protocol::name(code)) +
-         "): " + (why.empty() ? clause(code) + addition(code, detail) : std::string(why));
+  return "the robot refused " + std::string(what) + ": " +
+         (why.empty() ? clause(code) + addition(code, detail) : std::string(why));
 }
 
 Remark remark_on(std::string_view what, protocol::ErrorCode code, std::uint16_t detail, std::string_view why,

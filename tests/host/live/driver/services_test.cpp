@@ -222,7 +222,7 @@ TEST_F(Services, APathThatAnotherProgramHasLeftIsNotTakenOver) {
 TEST_F(Services, PauseNeedsAnArmedRobot) {
   const auto answer = bench.call("/pause");
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message, HasSubstr("not_armed"));
+  EXPECT_THAT(answer.message, HasSubstr("arm it first"));
 }
 
 TEST_F(Services, PauseAndResumeTheDriveOfAnotherProgram) {

@@ -183,7 +183,7 @@ TEST_F(Params, ARefusedSetNamesTheRuleTheLimitAndItsUnit) {
   };
   for (const Refused& c :
        {Refused{{"over_speed=0.7"},
-                "over_speed = 0.7 m/s (invalid_parameter): it has to be above speed_limit = "
+                "over_speed = 0.7 m/s: it has to be above speed_limit = "
                 "0.75 m/s, or full speed would be a fault"},
         Refused{{"speed_limit=1.3"}, "above speed_limit = 1.3 m/s"},
         Refused{{"motor_polarity_right=0"}, "it has to be +1 or -1"},
