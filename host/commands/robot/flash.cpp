@@ -6,8 +6,8 @@
 
 #include "host/base/error.hpp"
 #include "host/commands/base/advice.hpp"
-#include "host/commands/base/flags.hpp"
 #include "host/commands/robot/commands.hpp"
+#include "host/commands/robot/image_search.hpp"
 #include "host/commands/robot/loader.hpp"
 #include "host/commands/robot/pico_drive.hpp"
 #include "host/commands/shared/connection.hpp"
@@ -25,8 +25,6 @@ namespace astro::commands {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kBuilt = "build/teensy40/bin/astrolabe-teensy40.hex";
-
 /// What a kind of image is for, and how it gets there.
 struct Destination {
   std::string_view board, person_does;
@@ -48,8 +46,8 @@ Loadable read_image(const fs::path& file) {
 
 struct FlashOptions {
   ConnectionOptions connection;
-  fs::path file = kBuilt;
-  bool button = false, yes = false;
+  fs::path file;  // "": the image for the robot's board that is here
+  bool button = false, force = false;
 };
 
 std::unique_ptr<robot::Client> find_robot(ConnectionOptions& options, const Destination& destination) {
@@ -85,8 +83,10 @@ std::string describe(const FirmwareImage& image, const fs::path& file) {
 void check_origin(const Loadable& loadable, const FlashOptions& options) {
   const std::string what = describe(loadable.image, options.file);
   if (is_for_its_board(loadable)) return console::say(what);
-  if (!options.yes && !console::confirm(fmt::format("{}. Flash it anyway?", what)))
-    throw Error("nothing was flashed");
+  if (options.force) return console::say("warning: " + what);
+  if (!console::stdin_is_terminal())
+    throw Error(fmt::format("{}, so nothing was flashed (--force flashes it all the same)", what));
+  if (!console::confirm(fmt::format("{}. Flash it anyway?", what))) throw Error("nothing was flashed");
 }
 
 /// Into a robot that waits in its boot loader, or will.
@@ -130,7 +130,14 @@ void check_parameters(const robot::RemoteParameters& before, const robot::Remote
   }
 }
 
+/// Without a robot that says which board it is, a Teensy is taken for granted.
+fs::path image_that_is_here(FlashOptions& options) {
+  if (options.button) return find_image(kHex.board);
+  return find_image(find_robot(options.connection, kHex)->robot().board.view());
+}
+
 void run(FlashOptions& options) {
+  if (options.file.empty()) options.file = image_that_is_here(options);
   const Loadable loadable = read_image(options.file);
   const FirmwareImage& image = loadable.image;
   const fs::path loader = loadable.destination.board == kHex.board ? find_loader() : fs::path();
@@ -179,13 +186,13 @@ void add_flash(console::Command app) {
   const console::Command command =
       app.add_subcommand("flash", "load new firmware into the robot, which must be disarmed");
   command
-      .add_option("file", options->file,
-                  "image for the robot's board, as './dev firmware' builds it: .hex for a Teensy 4.0, .uf2 "
-                  "for a Pico")
-      .type_name("FILE")
-      .capture_default_str();
+      .add_option(
+          "file", options->file,
+          ".hex for a Teensy 4.0, .uf2 for a Pico (default: the one for the robot's board, below build or as "
+          "it was installed; with --button that for a Teensy)")
+      .type_name("FILE");
   command.add_flag("--button", options->button, "do not contact the robot: a person presses its button");
-  add_yes(command, options->yes, "flash also what is not Astrolabe's, or not for this board");
+  command.add_flag("--force", options->force, "flash also what is not Astrolabe's, or not for this board");
   add_connection(command, options->connection);
   console::examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",
                               "astrolabe flash --button",

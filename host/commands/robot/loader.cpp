@@ -60,15 +60,20 @@ void wait_for_loader(ChildProcess& child) {
 
 }  // namespace
 
+std::optional<fs::path> program_on_path(const std::string& name) {
+  const char* folders = std::getenv("PATH");
+  std::istringstream path(folders != nullptr ? folders : "");
+  for (std::string folder; std::getline(path, folder, ':');)
+    if (runnable(fs::path(folder) / name)) return fs::path(folder) / name;
+  return std::nullopt;
+}
+
 fs::path find_loader() {
   if (const char* named = std::getenv("ASTROLABE_LOADER"); named != nullptr) {
     if (runnable(named)) return named;
     throw Error(fmt::format("ASTROLABE_LOADER names '{}', which is no program: unset it or name one", named));
   }
-  const char* folders = std::getenv("PATH");
-  std::istringstream path(folders != nullptr ? folders : "");
-  for (std::string folder; std::getline(path, folder, ':');)
-    if (runnable(fs::path(folder) / "teensy_loader_cli")) return fs::path(folder) / "teensy_loader_cli";
+  if (const auto loader = program_on_path("teensy_loader_cli")) return *loader;
   throw Error("teensy_loader_cli is not installed: apt install teensy-loader-cli");
 }
 

@@ -1,8 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace astro::commands {
+
+/// Where a program of this name stands on the PATH; empty if it does not.
+std::optional<std::filesystem::path> program_on_path(const std::string& name);
 
 /// teensy_loader_cli on the PATH, or the program that the environment variable ASTROLABE_LOADER names. Throws
 /// astro::Error if there is none.

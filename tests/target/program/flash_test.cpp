@@ -137,7 +137,7 @@ TEST_F(Flash, AsksBeforeItFlashesAnImageForAnotherBoardOfAstrolabe) {
     if (button) words = {"flash", image, "--button"};
     const Outcome outcome = astrolabe(words);
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("for the board 'Teensy40'"), HasSubstr("--yes")));
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("for the board 'Teensy40'"), HasSubstr("--force")));
   }
   EXPECT_FALSE(std::filesystem::exists(emulator_.folder() / "loader.sh.ran")) << "nothing was erased";
   EXPECT_EQ(ask({"info"})["mode"], "disarmed") << "the robot was left alone";
@@ -148,9 +148,9 @@ TEST_F(Flash, AsksBeforeItFlashesWhatIsNotAstrolabesByTheButton) {
   const std::string image = patched(0x1030, 'a');
   const Outcome outcome = astrolabe({"flash", image, "--button"});
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("is not firmware of Astrolabe"), HasSubstr("--yes")));
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("is not firmware of Astrolabe"), HasSubstr("--force")));
   EXPECT_FALSE(std::filesystem::exists(emulator_.folder() / "loader.sh.ran"));
-  EXPECT_EQ(astrolabe({"flash", image, "--button", "--yes"}).code, 0);
+  EXPECT_EQ(astrolabe({"flash", image, "--button", "--force"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(emulator_.folder() / "loader.sh.ran"));
 }
 
