@@ -42,10 +42,12 @@ std::vector<std::string> choices(const CLI::Option& option) {
 
 class Completer {
  public:
-  explicit Completer(const std::string& begun) : begun_(begun) {}
+  /// `before`: what stands in the same word in front of what is begun, as in --order=cw.
+  explicit Completer(const std::string& begun, const std::string& before = "")
+      : begun_(begun), before_(before) {}
 
   void offer(const std::string& word, const std::string& what = "") {
-    if (word.starts_with(begun_)) out_.words.push_back({word, in_a_line(what)});
+    if (word.starts_with(begun_)) out_.words.push_back({before_ + word, in_a_line(what)});
   }
   void offer_values(const CLI::Option& option) {
     for (const std::string& word : choices(option)) offer(word);
@@ -54,9 +56,18 @@ class Completer {
   Completion result() && { return std::move(out_); }
 
  private:
-  std::string begun_;
+  std::string begun_, before_;
   Completion out_;
 };
+
+/// Behind the = of an option.
+Completion complete_value(const CLI::App& command, const std::string& begun) {
+  const std::size_t value = begun.find('=') + 1;
+  Completer out(begun.substr(value), begun.substr(0, value));
+  const CLI::Option* option = command.get_option_no_throw(begun.substr(0, value - 1));
+  if (option != nullptr && takes_value(*option)) out.offer_values(*option);
+  return std::move(out).result();
+}
 
 }  // namespace
 
@@ -80,6 +91,7 @@ Completion complete(Command program, const std::vector<std::string>& typed) {
     out.offer_values(*open);
     return std::move(out).result();
   }
+  if (begun.starts_with('-') && begun.find('=') != std::string::npos) return complete_value(*command, begun);
   if (begun.starts_with('-')) {
     for (const CLI::Option* option : command->get_options())
       if (option->nonpositional()) out.offer(longest_name(*option), option->get_description());

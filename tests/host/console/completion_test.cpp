@@ -71,6 +71,13 @@ TEST_F(TypedLine, OffersTheWordsThatAnOptionAccepts) {
   EXPECT_FALSE(after({"drive", "--order", ""}).files);
 }
 
+TEST_F(TypedLine, OffersTheWordsOfAnOptionAlsoBehindAnEqualsSign) {
+  EXPECT_THAT(words({"drive", "--order="}), ElementsAre("--order=cw", "--order=ccw"));
+  EXPECT_THAT(words({"drive", "--order=cc"}), ElementsAre("--order=ccw"));
+  EXPECT_TRUE(after({"drive", "--port=/dev/"}).files);
+  EXPECT_FALSE(after({"drive", "--json="}).files) << "a flag takes no value";
+}
+
 TEST_F(TypedLine, OffersFilesWhereAnyWordMayStand) {
   EXPECT_TRUE(after({"drive", "--port", "/dev/"}).files);
   EXPECT_TRUE(after({"report", ""}).files);
