@@ -7,6 +7,7 @@
 #include "host/commands/experiment/commands.hpp"
 #include "host/commands/live/commands.hpp"
 #include "host/commands/robot/commands.hpp"
+#include "host/commands/selftest/commands.hpp"
 #include "host/commands/simulate/commands.hpp"
 #include "host/commands/truth/commands.hpp"
 #include "host/console/command_line.hpp"
@@ -21,7 +22,7 @@ inline void add_all(console::Command app) {
     std::vector<Add> commands;
   };
   for (const Heading& heading : std::vector<Heading>{
-           {"Start", {add_ports, add_info, add_flash, add_check_wiring, add_tune, add_params}},
+           {"Start", {add_selftest, add_ports, add_info, add_flash, add_check_wiring, add_tune, add_params}},
            {"Drive", {add_drive, add_stop, add_pause, add_resume, add_monitor, add_faults, add_reboot}},
            {"Calibrate",
             {add_umbmark, add_calibrate, add_upload, add_record, add_compare, add_report, add_plan}},

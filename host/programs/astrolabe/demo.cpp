@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
-#include "host/base/child_process.hpp"
 #include "host/base/error.hpp"
-#include "host/base/interrupted.hpp"
-#include "host/base/system_error.hpp"
-#include "host/console/interrupt.hpp"
+#include "host/commands/selftest/demo_robot.hpp"
 #include "host/console/program.hpp"
 
 namespace astro::commands {
@@ -21,37 +17,6 @@ namespace fs = std::filesystem;
 struct DemoOptions {
   fs::path folder = "astrolabe-demo";
   std::uint64_t seed = 1;
-};
-
-/// `astrolabe sim` in a process of its own, as it would run in a second terminal.
-class SimulatedRobot {
- public:
-  /// The wheels differ by 0.416 %, the wheelbase is 0.479 % shorter than the robot believes, and the wheels slip as those of
-  /// the robot that the numbers come from.
-  SimulatedRobot(const fs::path& port, std::uint64_t seed) {
-    const int failed = process_.start(
-        {"/proc/self/exe", "sim", "--pty", port.string(), "--true-ed", "1.00416", "--true-wheelbase",
-         "0.28861", "--slip", "2.645e-6", "--seed", std::to_string(seed), "--fast"},
-        ChildProcess::Output::lines, [&](std::string_view line) { said_ = line; });
-    if (failed != 0) throw Error("the simulated robot cannot be started: " + system_reason(failed));
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (!fs::exists(port)) {
-      process_.wait(std::chrono::milliseconds(20));
-      if (console::interrupted()) throw Interrupted("the demonstration was interrupted");
-      if (!process_.writes_lines() || std::chrono::steady_clock::now() > end)
-        throw Error("the simulated robot does not start: " + said_);
-    }
-  }
-  ~SimulatedRobot() {
-    process_.terminate();  // it takes its port away
-    process_.finish(std::chrono::seconds(5));
-  }
-  SimulatedRobot(const SimulatedRobot&) = delete;
-  SimulatedRobot& operator=(const SimulatedRobot&) = delete;
-
- private:
-  ChildProcess process_;
-  std::string said_;
 };
 
 /// False if the command says no to its question, which is then the answer of the demonstration, too.
@@ -69,7 +34,7 @@ void demonstrate(const DemoOptions& options, const std::function<int(const std::
     throw Error("'" + folder.string() + "' exists already: remove it, or name another folder with --out");
   fs::create_directories(folder);
   const fs::path port = folder / "robot.pty", experiment = folder / "experiment";
-  const SimulatedRobot robot(port, options.seed);
+  const DemoRobot robot(port, {"--fast", "--seed", std::to_string(options.seed)});
   if (!carry_out(run, {"umbmark", "--port", port.string(), "--truth", "sim", "--runs", "5", "--side", "3",
                        "--out", experiment.string(), "--yes"}))
     return;
