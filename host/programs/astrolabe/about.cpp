@@ -16,17 +16,25 @@ namespace {
 
 // Each script asks the program itself for the words that may follow, so that none of them knows a command or an option.
 constexpr const char* kBash = R"(# For ~/.bashrc: source <(astrolabe completion bash)
+# Bash takes = and : for words of their own; the program gets the words as they were typed, and bash the rest of the last one.
 _astrolabe() {
-  local cur=${COMP_WORDS[COMP_CWORD]} line
+  local cur=${COMP_WORDS[COMP_CWORD]} line word glue= begun= typed=()
   COMPREPLY=()
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD}"; do
+    if [[ ${#typed[@]} -gt 0 && ( $glue || $word == [=:]* ) ]]; then typed[-1]+=$word; else typed+=("$word"); fi
+    [[ $word == *[=:] ]] && glue=1 || glue=
+  done
+  [[ $cur == [=:]* ]] && cur=
+  [[ ${#typed[@]} -gt 0 ]] && begun=${typed[-1]%"$cur"}
   while IFS= read -r line; do
     if [[ $line == : ]]; then
       compopt -o filenames 2>/dev/null
       mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -f -- "$cur")
     else
-      COMPREPLY+=("${line%%$'\t'*}")
+      line=${line%%$'\t'*}
+      COMPREPLY+=("${line#"$begun"}")
     fi
-  done < <("${COMP_WORDS[0]}" complete -- "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
+  done < <("${COMP_WORDS[0]}" complete -- "${typed[@]}" 2>/dev/null)
 }
 complete -o default -F _astrolabe astrolabe
 )";
@@ -37,7 +45,7 @@ _astrolabe() {
   local line
   local -a words_and_what
   for line in "${(@f)$("${words[1]}" complete -- "${(@)words[2,CURRENT]}" 2>/dev/null)}"; do
-    if [[ $line == : ]]; then _files
+    if [[ $line == : ]]; then compset -P '*='; _files
     elif [[ -n $line ]]; then words_and_what+=("${${line//:/\\:}/$'\t'/:}")
     fi
   done

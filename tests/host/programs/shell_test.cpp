@@ -42,6 +42,15 @@ TEST(Bash, CompletesCommandsOptionsAndTheirWords) {
   EXPECT_THAT(offered_by_bash({"umbmark", "--order", "cw"}), ElementsAre("cw-first"));
 }
 
+TEST(Bash, CompletesBehindAnEqualsSignWhichItTakesForAWord) {
+  EXPECT_THAT(offered_by_bash({"umbmark", "--order", "=", "cw"}), ElementsAre("cw-first"));
+  EXPECT_THAT(offered_by_bash({"umbmark", "--order", "="}), IsSupersetOf({"cw-first", "ccw-first"}));
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "robot.toml") << "b = 0.29\n";
+  EXPECT_THAT(offered_by_bash({"calibrate", "bag", "--robot", "=", (folder.path() / "rob").string()}),
+              ElementsAre((folder.path() / "robot.toml").string()));
+}
+
 TEST(Bash, CompletesNamesOfFilesWithBlanks) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "my drive.csv") << "t\n";
