@@ -3,33 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <sstream>
-#include <string>
-#include <string_view>
 
 namespace astro::console {
 namespace {
 
 constexpr std::size_t kWidth = 80, kNames = 30;
-
-/// Words of `text` in lines of at most kWidth, of which the first begins at column `at`, and the others at column `indent`.
-std::string wrapped(std::string_view text, std::size_t at, std::size_t indent) {
-  std::istringstream words{std::string(text)};
-  std::string out, word;
-  bool first = true;
-  while (words >> word) {
-    if (!first && at + 1 + word.size() > kWidth) {
-      out += '\n' + std::string(indent, ' ');
-      at = indent;
-    } else if (!first) {
-      out += ' ';
-      ++at;
-    }
-    out += word;
-    at += word.size();
-    first = false;
-  }
-  return out;
-}
 
 class HelpFormatter final : public CLI::Formatter {
  public:
@@ -106,6 +84,25 @@ class HelpFormatter final : public CLI::Formatter {
 };
 
 }  // namespace
+
+std::string wrapped(std::string_view text, std::size_t at, std::size_t indent) {
+  std::istringstream words{std::string(text)};
+  std::string out, word;
+  bool first = true;
+  while (words >> word) {
+    if (!first && at + 1 + word.size() > kWidth) {
+      out += '\n' + std::string(indent, ' ');
+      at = indent;
+    } else if (!first) {
+      out += ' ';
+      ++at;
+    }
+    out += word;
+    at += word.size();
+    first = false;
+  }
+  return out;
+}
 
 void fit_help(CLI::App& app) { app.formatter(std::make_shared<HelpFormatter>()); }
 

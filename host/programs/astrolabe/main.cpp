@@ -23,6 +23,7 @@
 #include "host/programs/astrolabe/about.hpp"
 #include "host/programs/astrolabe/all_commands.hpp"
 #include "host/programs/astrolabe/demo.hpp"
+#include "host/programs/astrolabe/help.hpp"
 
 namespace {
 
@@ -50,12 +51,17 @@ int run(int argc, char** argv) {
   const Command app = program.command();
   app.require_subcommand(1, 1);
   app.footer(
-      "'astrolabe COMMAND --help' shows options and examples.\n"
-      "Exit codes: 0 done, also where a calibration cannot be judged; 1 something outside is wrong; 2 wrong\n"
-      "usage; 3 a calibration is not better than what the robot carries; 130 Ctrl-C.");
+      "'astrolabe COMMAND --help' shows options, 'astrolabe help' lists the guides.\n"
+      "Exit codes:\n"
+      "  0    done; also what runs until Ctrl-C, and what cannot be judged\n"
+      "  1    something outside is wrong\n"
+      "  2    wrong usage\n"
+      "  3    a calibration is not better than what the robot carries\n"
+      "  130  Ctrl-C before it was done");
   app.under("Start", [&] { add_demo(app, run_words); });
   add_all(app);
   add_about(app, version);
+  add_help(app, run_words);
   const int code = program.run(argc, argv);
   flush_output();
   return code;

@@ -112,7 +112,8 @@ TEST(Installation, PutsWhatIsOursWhereDebianLooksForItAndTouchesNothingElse) {
   for (const char* file :
        {"bash-completion/completions/astrolabe", "zsh/vendor-completions/_astrolabe",
         "fish/vendor_completions.d/astrolabe.fish", "man/man1/astrolabe.1.gz",
-        "man/man1/astrolabe-calibrate-files.1.gz", "doc/astrolabe/changelog.gz", "doc/astrolabe/copyright"})
+        "man/man1/astrolabe-calibrate-files.1.gz", "man/man1/astrolabe-help-first-robot.1.gz",
+        "doc/astrolabe/changelog.gz", "doc/astrolabe/copyright"})
     EXPECT_TRUE(std::filesystem::is_regular_file(share / file)) << file;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "usr/local/bin/astrolabe"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "usr/local/lib/udev/rules.d/60-astrolabe.rules"));
