@@ -30,9 +30,11 @@ std::string type_of(const fs::path& path) {
   return std::string(found == kTypes.end() ? "application/octet-stream" : found->second);
 }
 
+/// Neither ".." nor "//", behind which a path would begin at the root of all files.
 bool is_plain(std::string_view path) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/";
-  return path.starts_with('/') && path.find("..") == path.npos && path.find_first_not_of(kPlain) == path.npos;
+  return path.starts_with('/') && path.find("..") == path.npos && path.find("//") == path.npos &&
+         path.find_first_not_of(kPlain) == path.npos;
 }
 
 }  // namespace
