@@ -17,6 +17,7 @@ constexpr double kNothing_m = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kWindow_us = 8e6, kLeastSpan_us = 5e5;
 constexpr std::size_t kLeastArrivals = 20, kMostArrivals = 16'384;
+constexpr double kBacklog_us = 5e4;       // later than a scheduler usually makes an arrival
 constexpr double kFarFromNominal = 0.25;  // of the nominal period
 
 // A turn has at least one beam in 9 degrees; more than 10,000 measurements without a start flag are no turn.
@@ -100,7 +101,14 @@ std::vector<float> evenly_spaced(std::vector<Sight> sights, const Spacing& spaci
 
 void SampleClock::arrived(std::int64_t count, std::chrono::microseconds at) {
   if (!arrivals_.empty() && arrivals_.back().count == count) return;
-  arrivals_.push_back({count, static_cast<double>(at.count())});
+  const Arrival last{count, static_cast<double>(at.count())};
+  const auto begun_us = [&](const Arrival& arrival) {
+    return arrival.time_us - 1e6 * nominal_s_ * static_cast<double>(arrival.count);
+  };
+  // What had waited while the computer looked elsewhere tells nothing of the rate.
+  while (!arrivals_.empty() && begun_us(arrivals_.front()) > begun_us(last) + kBacklog_us)
+    arrivals_.pop_front();
+  arrivals_.push_back(last);
   while (arrivals_.size() > kMostArrivals ||
          arrivals_.back().time_us - arrivals_.front().time_us > kWindow_us)
     arrivals_.pop_front();
@@ -108,10 +116,15 @@ void SampleClock::arrived(std::int64_t count, std::chrono::microseconds at) {
 
 void SampleClock::restart() { arrivals_.clear(); }
 
+bool SampleClock::settled() const {
+  return arrivals_.size() >= kLeastArrivals &&
+         arrivals_.back().time_us - arrivals_.front().time_us >= kLeastSpan_us;
+}
+
 void SampleClock::update() {
   if (arrivals_.empty()) return;
   const Arrival& first = arrivals_.front();
-  if (arrivals_.back().time_us - first.time_us >= kLeastSpan_us && arrivals_.size() >= kLeastArrivals) {
+  if (settled()) {
     double n = 0, count = 0, time = 0, square = 0, product = 0;
     for (const Arrival& arrival : arrivals_) {
       const double x = static_cast<double>(arrival.count - first.count), y = arrival.time_us - first.time_us;
@@ -122,7 +135,8 @@ void SampleClock::update() {
   }
   start_us_ = std::numeric_limits<double>::infinity();
   for (const Arrival& arrival : arrivals_)
-    start_us_ = std::min(start_us_, arrival.time_us - 1e6 * period_s_ * static_cast<double>(arrival.count));
+    start_us_ =
+        std::min(start_us_, arrival.time_us - 1e6 * period_s_ * static_cast<double>(arrival.count - 1));
 }
 
 TurnAssembler::TurnAssembler(double sample_s, double delay_s, Range range)
@@ -130,9 +144,12 @@ TurnAssembler::TurnAssembler(double sample_s, double delay_s, Range range)
 
 void TurnAssembler::add(const std::vector<Node>& nodes, std::int64_t received, std::chrono::microseconds at) {
   const bool lost = std::ranges::any_of(nodes, [](const Node& node) { return !node.follows; });
-  if (lost) clock_.restart();
-  clock_.arrived(received, at);
+  if (!lost) clock_.arrived(received, at);
   for (const Node& node : nodes) {
+    if (!node.follows && clock_.started()) {  // turns from before are on the clock from before
+      stamp_turns();
+      clock_.restart();
+    }
     if (!node.follows || turn_.size() >= kMostNodes) whole_ = false;
     if (!whole_ && !node.starts_turn) continue;
     if (node.starts_turn) {
@@ -142,6 +159,8 @@ void TurnAssembler::add(const std::vector<Node>& nodes, std::int64_t received, s
     }
     turn_.push_back(node);
   }
+  if (lost) clock_.arrived(received, at);
+  if (clock_.settled()) stamp_turns();
 }
 
 void TurnAssembler::finish_turn() {
@@ -150,17 +169,26 @@ void TurnAssembler::finish_turn() {
   const Spacing spacing = spacing_of(sights);
   const double turned_rad = spacing.step_rad * static_cast<double>(sights.size());
   if (std::abs(turned_rad - 2 * kPi) > kOffTurn_rad) return;
-  clock_.update();
   lidar::Scan scan;
-  scan.time_ns = std::llround(1e3 * clock_.time_us(turn_.front().count) - 1e9 * delay_s_);
   scan.first_angle_rad = -spacing.first_rad;  // an RPLIDAR counts angles clockwise
   scan.angle_step_rad = -spacing.step_rad;
-  scan.beam_interval_s = clock_.period_s();
   scan.range_min_m = range_.min_m;
   scan.range_max_m = range_.max_m;
   scan.ranges_m = evenly_spaced(sights, spacing);
-  if (scans_.size() >= kMostTurns) scans_.erase(scans_.begin(), scans_.begin() + kMostTurns / 2);
-  scans_.push_back(std::move(scan));
+  ended_.push_back({turn_.front().count, std::move(scan)});
+}
+
+void TurnAssembler::stamp_turns() {
+  clock_.update();
+  for (Turn& turn : std::exchange(ended_, {})) {
+    turn.scan.time_ns = std::llround(1e3 * clock_.time_us(turn.count) - 1e9 * delay_s_);
+    turn.scan.beam_interval_s = clock_.period_s();
+    // After a computer that looked very late the clock may find that it was ahead.
+    if (turn.scan.time_ns <= last_ns_) continue;
+    last_ns_ = turn.scan.time_ns;
+    if (scans_.size() >= kMostTurns) scans_.erase(scans_.begin(), scans_.begin() + kMostTurns / 2);
+    scans_.push_back(std::move(turn.scan));
+  }
 }
 
 std::vector<lidar::Scan> TurnAssembler::take() { return std::exchange(scans_, {}); }
