@@ -180,10 +180,11 @@ void add_record(console::Command app) {
   command
       .add_option("--truth", options->truth.source,
                   "sim, none, lidar:PORT (an RPLIDAR on the robot),\nor a tracker: vrpn://HOST/BODY, "
-                  "natnet://HOST/BODY,\nros2:/TOPIC")
+                  "natnet://HOST/BODY,\nros2:/TOPIC (poses, or scans of a laser scanner)")
       .type_name("SOURCE")
       .check(truth_source({"sim", "none", "lidar"}))
       .capture_default_str();
+  add_mirrored_scans(command, options->truth);
   options->seconds_option = command
                                 .add_option("--seconds", options->seconds,
                                             "end after this time on the robot's clock (default: at Ctrl-C)")

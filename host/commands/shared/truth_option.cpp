@@ -8,8 +8,11 @@
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/press_enter.hpp"
 #include "host/console/console.hpp"
+#include "host/console/wrong_usage.hpp"
 #include "host/truth/files/file_source.hpp"
 #include "host/truth/live/live_source.hpp"
+#include "host/truth/live/ros_scan_link.hpp"
+#include "host/truth/live/rplidar_link.hpp"
 #include "host/truth/live/scanner_source.hpp"
 #include "host/truth/live/socket_source.hpp"
 
@@ -20,15 +23,26 @@ constexpr Advice kTruthAdvice[] = {
     {truth::SocketProblem::not_served, ": --truth sim needs a robot started with 'astrolabe sim'"},
 };
 
-std::unique_ptr<truth::Source> open_tracker(const std::string& address) {
-  auto source = std::make_unique<truth::LiveSource>(truth::tracker_url_in(address));
-  console::say("ground truth: " + source->description());
+std::unique_ptr<truth::Source> open_scanner(std::unique_ptr<truth::ScanLink> link,
+                                            const TruthOption& option) {
+  auto source = std::make_unique<truth::ScannerSource>(
+      std::move(link), option.mirrored ? truth::Mirrored::yes : truth::Mirrored::no);
+  console::say("laser scanner: " + source->description());
   return source;
 }
 
-std::unique_ptr<truth::Source> open_scanner(const std::string& port) {
-  auto source = std::make_unique<truth::ScannerSource>(port);
-  console::say("laser scanner: " + source->description());
+void require_scans_for(const TruthOption& option) {
+  if (option.mirrored)
+    throw console::WrongUsage("--truth-mirrored is of scans, and --truth " + option.source + " gives none");
+}
+
+std::unique_ptr<truth::Source> open_on_network(const TruthOption& option) {
+  const truth::TrackerUrl url = truth::tracker_url_in(option.source);
+  if (url.scheme == "ros2" && truth::carries_scans(url))
+    return open_scanner(std::make_unique<truth::RosScanLink>(url), option);
+  require_scans_for(option);
+  auto source = std::make_unique<truth::LiveSource>(url);
+  console::say("ground truth: " + source->description());
   return source;
 }
 
@@ -40,6 +54,11 @@ std::string choice_of(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+void add_mirrored_scans(console::Command command, TruthOption& option) {
+  command.add_flag("--truth-mirrored", option.mirrored,
+                   "the laser scanner hangs upside down, or its beams\nrun the other way round than it says");
+}
 
 console::Check truth_source(std::vector<std::string> words) {
   advise(kTruthAdvice);
@@ -88,13 +107,15 @@ std::string ask_person(const truth::Question& question) {
 
 std::unique_ptr<truth::Source> open_truth(const TruthOption& option, const std::string& port,
                                           const truth::Ask& asking) {
+  if (const auto scanner = truth::scanner_port_in(option.source))
+    return open_scanner(std::make_unique<truth::RplidarLink>(*scanner), option);
+  if (truth::is_tracker_url(option.source)) return open_on_network(option);
+  require_scans_for(option);
   if (option.source == "sim") return std::make_unique<truth::SocketSource>(truth::mocap_socket_of(port));
   if (option.source == "manual") return std::make_unique<truth::ManualSource>(asking, option.units);
   if (option.source == "file") return std::make_unique<truth::FileSource>(option.folder, asking);
   if (option.source == "film") return std::make_unique<truth::LaterSource>("film");
   if (option.source == "none") return std::make_unique<truth::NoSource>();
-  if (const auto scanner = truth::scanner_port_in(option.source)) return open_scanner(*scanner);
-  if (truth::is_tracker_url(option.source)) return open_tracker(option.source);
   throw Error("'" + option.source + "' is not a source of ground truth: choose sim, manual, file or none");
 }
 

@@ -19,12 +19,17 @@ namespace astro::commands {
 ///   file    each run's ground truth is read from a CSV that another program wrote
 ///   film    a phone films the robot's tag, and the film is taken once all runs of a phase are driven (umbmark only)
 ///   none    nothing (record only)
-///   lidar:PORT  a laser scanner on the robot, at a serial port of this computer; scans are recorded, not poses (record only)
+///   lidar:PORT  a laser scanner on the robot, at a serial port of this computer
+/// A topic of ROS 2 may carry scans, too. Scans are recorded, and where the robot was follows from them.
 struct TruthOption {
   std::string source;
   std::filesystem::path folder;  // file: where the CSV files appear
   truth::Units units;            // manual: of numbers without one
+  bool mirrored = false;         // scans are mirror images
 };
+
+/// --truth-mirrored.
+void add_mirrored_scans(console::Command command, TruthOption& option);
 
 /// Accepts these words and the addresses of trackers.
 console::Check truth_source(std::vector<std::string> words);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/formats/files/bag.hpp"
 #include "host/lidar/scanned_drive.hpp"
 
 /// Scans of a laser scanner (sensor_msgs/msg/LaserScan) in bags.
@@ -22,6 +23,9 @@ struct BagScans {
 /// Throws astro::Error if no topic has scans; with the names of the topics if several have, or the named one has none; and what
 /// bag::read_bag throws.
 BagScans scans_in_bag(const std::filesystem::path& path, const std::string& topic = {});
+
+/// The names of the topics that hold scans.
+std::vector<std::string> scan_topics(const std::vector<bag::BagTopic>& topics);
 
 /// Whether a bag has scans but no poses that are recognised as ground truth.
 bool has_scans_alone(const std::filesystem::path& path);

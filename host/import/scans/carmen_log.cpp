@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/order_statistics.hpp"
+#include "host/formats/files/bag.hpp"
 #include "host/formats/tables/text_file.hpp"
 #include "host/import/scans/carmen_messages.hpp"
 
@@ -171,6 +172,7 @@ void require_both(const CarmenLog& log, const std::string& file) {
 }  // namespace
 
 bool is_carmen_log(const std::filesystem::path& path) {
+  if (bag::is_bag(path)) return false;
   const Bytes text = tables::text_of_file(path);
   return is_carmen_log(as_text(text));
 }

@@ -7,7 +7,8 @@
 
 #include "host/base/blocked_signals.hpp"
 #include "host/base/error.hpp"
-#include "host/truth/live/scanner_port.hpp"
+#include "host/lidar/surface.hpp"
+#include "host/truth/scanners/rplidar_driver.hpp"
 
 namespace astro::truth {
 namespace {
@@ -31,28 +32,28 @@ std::optional<std::string> scanner_port_in(std::string_view text) {
   return std::string(text.substr(kScheme.size()));
 }
 
-ScannerSource::ScannerSource(const std::string& port) : ScannerSource(std::make_unique<ScannerPort>(port)) {}
-
-ScannerSource::ScannerSource(std::unique_ptr<rplidar::Line> line)
-    : port_(line->name()), driver_(std::move(line)) {
+ScannerSource::ScannerSource(std::unique_ptr<ScanLink> link, Mirrored mirrored)
+    : link_(std::move(link)), mirrored_(mirrored) {
+  const std::string what = link_->description();
   {
     const BlockedSignals blocked;
     thread_ = std::jthread([this](const std::stop_token& stop) { listen(stop); });
   }
   const lidar::Scan scan = await_scan(kFirstScan);
   const double turn_s = scan.beam_interval_s * static_cast<double>(scan.ranges_m.size());
-  description_ = fmt::format("RPLIDAR {} at {} baud, {} beams {:.1f} times a second", driver_.info().name(),
-                             driver_.baud(), scan.ranges_m.size(), 1 / turn_s);
+  description_ = fmt::format("{}, {} beams", what, scan.ranges_m.size());
+  if (turn_s > 0) description_ += fmt::format(" {:.1f} times a second", 1 / turn_s);
 }
 
 void ScannerSource::listen(const std::stop_token& stop) {
   try {
     while (!stop.stop_requested()) {
-      std::vector<lidar::Scan> scans = driver_.poll(kLook);
+      std::vector<lidar::Scan> scans = link_->poll(kLook);
       if (scans.empty()) continue;
       const std::lock_guard lock(mutex_);
       if (scans_.size() > kMostScansKept) scans_.erase(scans_.begin(), scans_.begin() + kMostScansKept / 2);
-      for (lidar::Scan& scan : scans) scans_.push_back(std::move(scan));
+      for (lidar::Scan& scan : scans)
+        scans_.push_back(mirrored_ == Mirrored::yes ? lidar::mirrored(std::move(scan)) : std::move(scan));
       changed_.notify_one();
     }
   } catch (...) {
@@ -72,9 +73,9 @@ lidar::Scan ScannerSource::await_scan(microseconds timeout) {
   });
   if (failure_) std::rethrow_exception(failure_);
   if (scans_.empty())
-    throw Error(fmt::format("the laser scanner at {} has sent no whole turn for {} s: does its motor turn?",
-                            port_, timeout / 1s),
-                rplidar::ScannerProblem::stopped, {port_, std::to_string(timeout / 1s)});
+    throw Error(
+        fmt::format("{} has sent no whole turn for {} s: {}", link_->subject(), timeout / 1s, link_->doubt()),
+        rplidar::ScannerProblem::stopped, {link_->subject(), std::to_string(timeout / 1s)});
   return scans_.front();
 }
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/truth/scanners/rplidar_driver.hpp"
+#include "host/truth/live/scan_link.hpp"
 #include "host/truth/source/source.hpp"
 
 namespace astro::truth {
@@ -18,19 +18,20 @@ namespace astro::truth {
 /// The port in "lidar:PORT"; nothing if the text is meant otherwise.
 std::optional<std::string> scanner_port_in(std::string_view text);
 
-/// A laser scanner at a serial port of this computer. It gives scans and no poses. A thread reads it, because its times follow from
-/// when bytes arrive.
+/// Mirror images of scans: of a scanner that hangs upside down, or whose beams run the other way round than its scans say.
+enum class Mirrored : bool { no, yes };
+
+/// A laser scanner on the robot. It gives scans and no poses: those follow from them after the run. A thread reads it, because times
+/// follow from when bytes arrive.
 ///
-/// Start   the constructor returns once the first scan has come. Throws as rplidar::Driver, and with ScannerProblem::stopped if none
+/// Start   the constructor returns once the first scan has come. Throws as the link does, and with ScannerProblem::stopped if none
 ///         comes within five seconds.
 /// Run     begin_run() returns once a scan that began after the call has come, and throws if none does within three seconds.
 /// Bounds  if nobody takes scans, some hundred of the newest are kept.
-/// Errors  begin_run(), poll() and take_scans() throw what the scanner's driver has thrown in the thread.
+/// Errors  begin_run(), poll() and take_scans() throw what the link has thrown in the thread.
 class ScannerSource : public Source {
  public:
-  explicit ScannerSource(const std::string& port);
-  /// Over any line whose clock is this computer's steady clock.
-  explicit ScannerSource(std::unique_ptr<rplidar::Line> line);
+  explicit ScannerSource(std::unique_ptr<ScanLink> link, Mirrored mirrored = Mirrored::no);
 
   void begin_run() override;
   std::vector<recording::TruthSample> poll() override;
@@ -44,9 +45,9 @@ class ScannerSource : public Source {
   lidar::Scan await_scan(std::chrono::microseconds timeout);
   void rethrow();
 
-  std::string port_;
+  std::unique_ptr<ScanLink> link_;  // read by the thread alone, once it runs
+  Mirrored mirrored_;
   std::string description_;
-  rplidar::Driver driver_;  // used by the thread alone, once it runs
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<lidar::Scan> scans_;  // guarded by the mutex, as the next one

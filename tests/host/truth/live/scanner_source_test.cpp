@@ -10,6 +10,7 @@
 
 #include "host/robot/port/open_transport.hpp"
 #include "host/simulation/server/server.hpp"
+#include "host/truth/live/rplidar_link.hpp"
 #include "tests/support/base/remarks.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
@@ -56,7 +57,7 @@ std::int64_t steady_now_ns() {
 
 TEST(ScannerSource, GivesScansOfTheRoomAndNoPoses) {
   const ServedScanner served;
-  ScannerSource source(served.port());
+  ScannerSource source(std::make_unique<RplidarLink>(served.port()));
   // A busy machine measures another rate than 5.5 turns a second.
   EXPECT_THAT(source.description(),
               testing::MatchesRegex("RPLIDAR A1M8 at 115200 baud, 360 beams [0-9.]+ times a second"));
@@ -83,9 +84,39 @@ TEST(ScannerSource, GivesScansOfTheRoomAndNoPoses) {
   }
 }
 
+/// Scans that are given to it.
+class GivenScans : public ScanLink {
+ public:
+  explicit GivenScans(lidar::Scan scan) : scan_(std::move(scan)) {}
+
+  std::vector<lidar::Scan> poll(std::chrono::microseconds) override {
+    scan_.time_ns = steady_now_ns();
+    return {scan_};
+  }
+  std::string subject() const override { return "the given scanner"; }
+  std::string doubt() const override { return "is it there?"; }
+  std::string description() const override { return "given"; }
+
+ private:
+  lidar::Scan scan_;
+};
+
+TEST(ScannerSource, TurnsMirrorImagesRound) {
+  lidar::Scan scan;
+  scan.first_angle_rad = 0.5;
+  scan.angle_step_rad = 0.01;
+  scan.ranges_m = {1, 2};
+  ScannerSource as_is(std::make_unique<GivenScans>(scan)),
+      turned(std::make_unique<GivenScans>(scan), Mirrored::yes);
+  as_is.begin_run();
+  turned.begin_run();
+  EXPECT_EQ(as_is.take_scans().at(0).first_angle_rad, 0.5);
+  EXPECT_EQ(turned.take_scans().at(0).first_angle_rad, -0.5);
+}
+
 TEST(ScannerSource, SaysThatItsScannerIsGone) {
   ServedScanner served;
-  ScannerSource source(served.port());
+  ScannerSource source(std::make_unique<RplidarLink>(served.port()));
   served.end();
   EXPECT_THAT([&] { source.begin_run(); }, ThrowsTelling(rplidar::ScannerProblem::unplugged, served.port()));
   EXPECT_THAT([&] { source.poll(); }, ThrowsTelling(rplidar::ScannerProblem::unplugged));
@@ -93,8 +124,8 @@ TEST(ScannerSource, SaysThatItsScannerIsGone) {
 }
 
 TEST(ScannerSource, NeedsAPortThatExistsAndIsOne) {
-  EXPECT_THAT([] { ScannerSource("/dev/shm/no-such-scanner"); }, ThrowsTelling(robot::PortProblem::absent));
-  EXPECT_THAT([] { ScannerSource("/dev/null"); }, ThrowsTelling(robot::PortProblem::not_serial));
+  EXPECT_THAT([] { RplidarLink("/dev/shm/no-such-scanner"); }, ThrowsTelling(robot::PortProblem::absent));
+  EXPECT_THAT([] { RplidarLink("/dev/null"); }, ThrowsTelling(robot::PortProblem::not_serial));
 }
 
 TEST(ScannerSource, IsNamedByItsPort) {
