@@ -125,7 +125,7 @@ void compare(std::span<const PieceError> before, std::span<const PieceError> aft
 Freedom FactorSet::freedom(bool late) const {
   Freedom free{};
   free[kScale] = scale;
-  free[kTurn] = turn;
+  free[kTurn] = free[kArcs] = turn;
   free[kBend] = bend;
   free[kLeverX] = free[kLeverY] = free[kLeverYaw] = true;
   free[kLate] = late;

@@ -15,7 +15,7 @@
 /// one's, the smallest is taken: a factor that helps little on pieces it has not seen does harm on others.
 namespace astro::lidar {
 
-/// A set of factors: scale S, turns G (b / S), bend E (E_d). What is not in it stays as loaded.
+/// A set of factors: scale S, turns G (b / S and e), bend E (E_d). What is not in it stays as loaded.
 struct FactorSet {
   std::string_view name;
   bool scale, turn, bend;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/lidar/driven_surface.hpp"
 #include "host/lidar/pair_match.hpp"
 
 namespace astro::lidar {
@@ -48,22 +49,10 @@ void Keyframes::add(const Scan& scan) {
   }
   const calibration::WheelState wheels = path_.at(on_wheels_s);
   if (last_ && !moved(last_->wheels, wheels, loaded_).beyond(kApart_m, kApart_rad)) return;
-  std::vector<SurfacePoint> points = surface(time_s, scan);
+  std::vector<SurfacePoint> points = driven_surface(drive_, scan, loaded_, start_, mirrored_);
   NearestPoints arranged(points);
   if (last_) check_long(add_stretch(time_s, wheels, points), arranged);
   last_ = {time_s, wheels, std::move(arranged)};
-}
-
-/// The velocity is the mean one over the scan.
-std::vector<SurfacePoint> Keyframes::surface(double time_s, const Scan& scan) const {
-  const double takes_s = scan.beam_interval_s * static_cast<double>(scan.ranges_m.size());
-  Twist2 velocity;
-  if (takes_s > 0) {
-    const Stretch during = cut_stretch(drive_.wheels, loaded_, time_s, time_s + takes_s, start_(kLate));
-    const Twist2 motion = predicted(during, start_, loaded_).log();
-    velocity = {motion.x_m / takes_s, motion.y_m / takes_s, motion.theta_rad / takes_s};
-  }
-  return mirrored_ ? surface_of(mirrored(scan), velocity) : surface_of(scan, velocity);
 }
 
 std::optional<ScanMatch> Keyframes::add_stretch(double time_s, const calibration::WheelState& wheels,

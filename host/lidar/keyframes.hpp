@@ -59,7 +59,6 @@ class Keyframes {
     Pose2 since;
     double length_m = 0;
   };
-  std::vector<SurfacePoint> surface(double time_s, const Scan& scan) const;
   std::optional<ScanMatch> add_stretch(double time_s, const calibration::WheelState& wheels,
                                        std::span<const SurfacePoint> points);
   void check_long(const std::optional<ScanMatch>& found, const NearestPoints& surface);

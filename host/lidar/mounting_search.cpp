@@ -1,14 +1,19 @@
 #include "host/lidar/mounting_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "host/base/error.hpp"
 #include "host/calibration/motion/wheel_path.hpp"
 #include "host/lidar/pair_match.hpp"
+#include "host/lidar/scan_problem.hpp"
 
 namespace astro::lidar {
 namespace {
@@ -48,7 +53,7 @@ class Pairs {
     if (last_) {
       // Far cheaper than all samples since the last scan, which may be those of an hour that the robot stood.
       if (is_near(wheels)) return;
-      const Pose2 moved = by_wheels(drive, *last_, scan, nothing_wrong(), loaded_);
+      const Pose2 moved = by_wheels(drive, *last_, scan, nothing_wrong(loaded_), loaded_);
       const double length_m = std::hypot(moved.x_m, moved.y_m), turned_rad = std::abs(moved.theta_rad);
       if (length_m < kPairApart_m && turned_rad < kPairApart_rad) return;
       if (length_m < kPairTooFar_m && turned_rad < kPairTooFar_rad) {
@@ -78,7 +83,7 @@ class Pairs {
 /// The share of the points of each pair that find a line, on average; 0 for pairs that do not match.
 double overlap(const std::vector<ScanPair>& pairs, const calibration::WheelFactors& loaded, double yaw_rad,
                bool mirror) {
-  Unknowns unknowns = nothing_wrong();
+  Unknowns unknowns = nothing_wrong(loaded);
   unknowns(kLeverYaw) = yaw_rad;
   double sum = 0;
   for (const ScanPair& pair : pairs) {
@@ -123,6 +128,32 @@ MountingFound find_mounting(std::span<const ScannedDrive> drives, const calibrat
 bool looks_mirrored(const MountingFound& found) {
   constexpr double kTimes = 1.3, kClearly = 0.1;
   return found.mirrored_overlap > kTimes * found.overlap + kClearly;
+}
+
+bool shows_mirror_images(const MountingFound& found) {
+  constexpr std::size_t kFewestTurning = 3;
+  return found.turning >= kFewestTurning;
+}
+
+MountingFound require_mounting(std::span<const ScannedDrive> drives, const calibration::WheelFactors& loaded,
+                               bool mirrored) {
+  const MountingFound found = find_mounting(drives, loaded, mirrored);
+  if (!looks_mirrored(found)) return found;
+  const auto percent = [](double share) { return fmt::format("{:.0f}", 100 * share); };
+  const std::vector<std::string> values{fmt::format("{}", found.turning), percent(found.overlap),
+                                        percent(found.mirrored_overlap)};
+  if (mirrored)
+    throw Error(fmt::format("as mirror images the scans turn the robot the other way than the wheels: in {} "
+                            "turns {} % of the points match, and {} % if each scan is taken as it is",
+                            values[0], values[1], values[2]),
+                ScanProblem::not_mirrored, values);
+  throw Error(
+      fmt::format("the scans turn the robot the other way than the wheels: in {} turns {} % of the "
+                  "points match, and {} % if each scan is taken for a mirror image, as of a scanner whose "
+                  "beams run the other way round or that hangs upside down, or if left and right wheel "
+                  "are exchanged",
+                  values[0], values[1], values[2]),
+      ScanProblem::mirrored, values);
 }
 
 }  // namespace astro::lidar

@@ -26,5 +26,11 @@ MountingFound find_mounting(std::span<const ScannedDrive> drives, const calibrat
 
 /// Whether the turning pairs match clearly better as a mirror image.
 bool looks_mirrored(const MountingFound& found);
+/// Whether there are enough of them for a mirror image to show.
+bool shows_mirror_images(const MountingFound& found);
+
+/// find_mounting, of scans that are as a person says. Throws astro::Error with ScanProblem::mirrored or not_mirrored otherwise.
+MountingFound require_mounting(std::span<const ScannedDrive> drives, const calibration::WheelFactors& loaded,
+                               bool mirrored);
 
 }  // namespace astro::lidar

@@ -13,7 +13,6 @@ namespace astro::lidar {
 namespace {
 
 constexpr std::size_t kFewestMatches = 10;
-constexpr std::size_t kFewestTurning = 3;  // pairs, without which a mirror image does not show
 
 /// What all drives show, with the scanner thought to sit as `start` says.
 struct Matched {
@@ -47,46 +46,46 @@ void require_matches(const ScanCounts& counts) {
               ScanProblem::do_not_match, {fmt::format("{}", counts.matched), fmt::format("{}", tried)});
 }
 
-MountingFound require_mounting(std::span<const ScannedDrive> drives, const calibration::WheelFactors& loaded,
-                               bool mirrored) {
-  const MountingFound found = find_mounting(drives, loaded, mirrored);
-  if (!looks_mirrored(found)) return found;
-  const auto percent = [](double share) { return fmt::format("{:.0f}", 100 * share); };
-  const std::vector<std::string> values{fmt::format("{}", found.turning), percent(found.overlap),
-                                        percent(found.mirrored_overlap)};
-  if (mirrored)
-    throw Error(fmt::format("as mirror images the scans turn the robot the other way than the wheels: in {} "
-                            "turns {} % of the points match, and {} % if each scan is taken as it is",
-                            values[0], values[1], values[2]),
-                ScanProblem::not_mirrored, values);
-  throw Error(
-      fmt::format("the scans turn the robot the other way than the wheels: in {} turns {} % of the "
-                  "points match, and {} % if each scan is taken for a mirror image, as of a scanner whose "
-                  "beams run the other way round or that hangs upside down, or if left and right wheel "
-                  "are exchanged",
-                  values[0], values[1], values[2]),
-      ScanProblem::mirrored, values);
-}
-
 /// Whether the scanner's place or clock differs so much from what the scans were matched with that they should be matched anew.
 bool elsewhere(const Unknowns& found, const Unknowns& start) {
   const Unknowns off = (found - start).cwiseAbs();
   return off(kLeverX) > 0.15 || off(kLeverY) > 0.15 || off(kLeverYaw) > 0.1 || off(kLate) > 0.02;
 }
 
-/// By the derivatives of c_R, c_L and b.
-Eigen::Matrix3d factor_covariance(const Unknowns& unknowns, const Information& covariance,
+/// By the derivatives of c_R, c_L, b and e.
+Eigen::Matrix4d factor_covariance(const Unknowns& unknowns, const Information& covariance,
                                   const calibration::WheelFactors& loaded) {
   constexpr double kStep = 1e-6;
-  Eigen::Matrix<double, 3, kUnknowns> by_unknowns;
+  Eigen::Matrix<double, 4, kUnknowns> by_unknowns;
   for (int k = 0; k < kUnknowns; ++k) {
     Unknowns more = unknowns, less = unknowns;
     more(k) += kStep;
     less(k) -= kStep;
     const calibration::WheelFactors a = factors_of(less, loaded), b = factors_of(more, loaded);
-    by_unknowns.col(k) = Eigen::Vector3d{b.c_r - a.c_r, b.c_l - a.c_l, b.b_m - a.b_m} / (2 * kStep);
+    by_unknowns.col(k) =
+        Eigen::Vector4d{b.c_r - a.c_r, b.c_l - a.c_l, b.b_m - a.b_m, b.e - a.e} / (2 * kStep);
   }
   return by_unknowns * covariance * by_unknowns.transpose();
+}
+
+/// Of all stretches, with the scanner where it was found in both cases: its place belongs to the scans and not to odometry.
+std::vector<StretchResidual> residuals_of(std::span<const Stretch> stretches, const Unknowns& found,
+                                          const calibration::WheelFactors& loaded) {
+  Unknowns as_loaded = nothing_wrong(loaded);
+  for (const Unknown place : {kLeverX, kLeverY, kLeverYaw, kLate}) as_loaded(place) = found(place);
+  std::vector<StretchResidual> residuals;
+  std::size_t drives = 0;
+  double way_m = 0;
+  for (const Stretch& stretch : stretches) {
+    if (stretch.new_drive) ++drives;
+    if (!stretch.scanner) continue;
+    const Pose2& seen = stretch.scanner->motion;
+    if (!stretch.scanner->degenerate)
+      residuals.push_back({drives - 1, way_m, difference(seen, predicted(stretch, as_loaded, loaded)),
+                           difference(seen, predicted(stretch, found, loaded))});
+    way_m += std::hypot(seen.x_m, seen.y_m);
+  }
+  return residuals;
 }
 
 Freedom all_free(bool late) { return FactorSet{"", true, true, true}.freedom(late); }
@@ -99,7 +98,7 @@ ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> drives,
   const bool late = std::all_of(drives.begin(), drives.end(),
                                 [](const ScannedDrive& drive) { return drive.times_measured; });
   const MountingFound mounting = require_mounting(drives, loaded, mirrored);
-  Unknowns start = nothing_wrong();
+  Unknowns start = nothing_wrong(loaded);
   start(kLeverYaw) = mounting.yaw_rad;
   ScanCalibration found;
   found.loaded = loaded;
@@ -113,7 +112,7 @@ ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> drives,
     for (const Unknown place : {kLeverX, kLeverY, kLeverYaw, kLate}) start(place) = all.fit.unknowns(place);
   }
   found.choice = choose_factors(matched.stretches, all.stretches, all.at, start, late, loaded);
-  found.judged = can_be_judged(found.choice) && mounting.turning >= kFewestTurning;
+  found.judged = can_be_judged(found.choice) && shows_mirror_images(mounting);
   found.counts = matched.counts;
   found.unknowns = all.fit.unknowns;
   found.unknowns_covariance = all.fit.covariance;
@@ -126,6 +125,7 @@ ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> drives,
   found.scanner_se = {error(kLeverX), error(kLeverY), error(kLeverYaw)};
   found.late_s = used(kLate);
   found.late_se_s = late ? error(kLate) : std::numeric_limits<double>::quiet_NaN();
+  found.residuals = residuals_of(matched.stretches, used, loaded);
   found.remarks = remarks_on(matched.long_matches, mounting, found);
   return found;
 }

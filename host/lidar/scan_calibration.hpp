@@ -7,18 +7,11 @@
 #include "host/base/error.hpp"
 #include "host/lidar/factor_choice.hpp"
 #include "host/lidar/keyframes.hpp"
+#include "host/lidar/scan_problem.hpp"
 #include "host/lidar/scanned_drive.hpp"
 
 /// Calibrates the wheels of a robot by the scans of a scanner on it: without a tracker, in any place that has walls.
 namespace astro::lidar {
-
-/// Why scans do not calibrate. Values:
-///   no_common_time  how many scans there are
-///   do_not_match    how many pairs of scans match, and of how many
-///   mirrored        how many turns were looked at, and how many percent of the points match in them, as the scans say and as a
-///                   mirror image
-///   not_mirrored    the same where a person says that the scans are mirrored: as mirror images, and as they are
-enum class ScanProblem { no_common_time, do_not_match, mirrored, not_mirrored };
 
 /// What the drives do not show, each a clause that names the motion that is missing; or what is odd. Values as in the clause.
 enum class ScanRemark {
@@ -35,10 +28,17 @@ enum class ScanRemark {
   matcher_biased,  // matches over some metres differ from the chain of the matches in between: degrees for each metre
 };
 
+/// By how much the scans moved on further than the wheels say on a stretch, with the loaded factors and with those found.
+struct StretchResidual {
+  std::size_t drive = 0;
+  double way_m = 0;  // that the scanner went in all drives before the stretch
+  Pose2 loaded, found;
+};
+
 struct ScanCalibration {
   calibration::WheelFactors loaded, factors;
-  Eigen::Matrix3d
-      covariance;  // of c_R, c_L, b: what these drives leave open, also of factors that stayed as loaded
+  Eigen::Matrix4d
+      covariance;  // of c_R, c_L, b, e: what these drives leave open, also of factors that stayed as loaded
   calibration::LeverArm scanner, scanner_se;
   double late_s = 0, late_se_s = 0;  // the scans' stamps are late; the error is NaN where times mean nothing
   Unknowns unknowns;                 // all of them free: what the drives show, whether it is used or not
@@ -47,6 +47,7 @@ struct ScanCalibration {
   bool judged =
       false;  // the drives are long enough, and have turns, without which a mirror image would not show
   ScanCounts counts;
+  std::vector<StretchResidual> residuals;  // of the stretches whose walls show the motion in both directions
   std::vector<Remark> remarks;
 };
 

@@ -38,7 +38,7 @@ void add_missing_motions(const MountingFound& mounting, const ScanCalibration& f
                        ScanRemark::no_place});
   unless_shown(kLeverYaw, ScanRemark::no_yaw,
                "the drives do not show which way the scanner looks: the robot has to move on from its place");
-  if (mounting.turning < 3)
+  if (!shows_mirror_images(mounting))
     remarks.push_back(
         {"without turns it does not show whether the scans are a mirror image, which would turn "
          "E_d round",

@@ -43,9 +43,10 @@ class Joined {
 
 }  // namespace
 
-Unknowns nothing_wrong() {
+Unknowns nothing_wrong(const WheelFactors& loaded) {
   Unknowns unknowns = Unknowns::Zero();
   unknowns(kScale) = unknowns(kTurn) = 1;
+  unknowns(kArcs) = loaded.e;
   return unknowns;
 }
 
@@ -55,6 +56,7 @@ WheelFactors factors_of(const Unknowns& unknowns, const WheelFactors& loaded) {
   const double half = unknowns(kBend) * factors.b_m / 2;
   factors.c_r = loaded.c_r * (unknowns(kScale) + half);
   factors.c_l = loaded.c_l * (unknowns(kScale) - half);
+  factors.e = unknowns(kArcs);
   return factors;
 }
 

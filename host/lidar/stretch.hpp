@@ -34,16 +34,16 @@ struct Stretch {
 };
 
 /// The unknowns. The first three are relative to the loaded factors: scale S, turn ratio G (headings turn by this much more than
-/// with the loaded b / S) and bend E (the heading changes by so much on each metre, rad/m, because the wheels differ). Then the
-/// scanner's place on the robot, and by how many seconds the scans' stamps are late.
-enum Unknown { kScale, kTurn, kBend, kLeverX, kLeverY, kLeverYaw, kLate, kUnknowns };
+/// with the loaded b / S) and bend E (the heading changes by so much on each metre, rad/m, because the wheels differ). Then e itself
+/// (gentle arcs turn about b (1 + e)), the scanner's place on the robot, and by how many seconds the scans' stamps are late.
+enum Unknown { kScale, kTurn, kBend, kArcs, kLeverX, kLeverY, kLeverYaw, kLate, kUnknowns };
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 /// Loaded factors, and a scanner in the robot's middle that looks forward.
-Unknowns nothing_wrong();
+Unknowns nothing_wrong(const calibration::WheelFactors& loaded);
 
-/// c_R, c_L and b of a robot that carries `loaded`. e stays as loaded.
+/// c_R, c_L, b and e of a robot that carries `loaded`.
 calibration::WheelFactors factors_of(const Unknowns& unknowns, const calibration::WheelFactors& loaded);
 calibration::LeverArm lever_of(const Unknowns& unknowns);
 

@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "host/base/order_statistics.hpp"
+#include "host/calibration/motion/spread_of_e.hpp"
 
 namespace astro::lidar {
 namespace {
@@ -79,7 +80,7 @@ void hold(const Freedom& free, Information& information, Unknowns& gradient) {
 
 Unknowns prior_deviations() {
   Unknowns deviations;
-  deviations << 0.02, 0.05, 0.02, 0.3, 0.15, 0.2, 0.1;
+  deviations << 0.02, 0.05, 0.02, calibration::kSpreadOfE, 0.3, 0.15, 0.2, 0.1;
   return deviations;
 }
 
@@ -114,12 +115,14 @@ StretchFit fit(std::span<const LinearStretch> stretches, const Unknowns& at, con
   std::vector<Eigen::Matrix3d> expected;
   for (const LinearStretch& one : stretches) expected.push_back(one.covariance + scatter);
   const Information prior = prior_deviations().cwiseProduct(prior_deviations()).cwiseInverse().asDiagonal();
+  Unknowns expected_before = start;
+  expected_before(kArcs) = 0;
   StretchFit found{start, Information::Zero()};
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::DiagonalMatrix<double, 3> by =
         spreads_of(stretches, expected, found.unknowns - at).cwiseInverse().asDiagonal();
     Information information = prior;
-    Unknowns gradient = prior * (start - found.unknowns);
+    Unknowns gradient = prior * (expected_before - found.unknowns);
     for (std::size_t i = 0; i < stretches.size(); ++i)
       add(stretches[i], residual_at(stretches[i], found.unknowns - at), by * expected[i].inverse() * by,
           information, gradient);

@@ -14,8 +14,8 @@ namespace astro::lidar {
 /// Which unknowns are estimated; the others keep their start values.
 using Freedom = std::array<bool, kUnknowns>;
 
-/// How much is known before anything was driven: standard deviations about the start values. A robot whose wheels are off by more
-/// still is calibrated, because the drives outweigh this.
+/// How much is known before anything was driven: standard deviations about the start values, and of e about 0. A robot whose wheels
+/// are off by more still is calibrated, because the drives outweigh this.
 Unknowns prior_deviations();
 
 /// A stretch near some unknowns: what the scans say minus what the wheels say, and how the latter changes with the unknowns.
@@ -37,7 +37,7 @@ struct StretchFit {
 
 /// Each stretch is weighted by the inverse of its match's covariance plus the wheels' scatter, which is that of the residuals
 /// themselves; outliers (slip, people) count little. `at`: where the stretches were linearised. `start`: the values of unknowns
-/// that are not free, about which the others have their prior. Precondition: three stretches at least.
+/// that are not free, about which the others have their prior (prior_deviations). Precondition: three stretches at least.
 StretchFit fit(std::span<const LinearStretch> stretches, const Unknowns& at, const Unknowns& start,
                const Freedom& free);
 

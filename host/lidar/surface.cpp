@@ -11,17 +11,40 @@ namespace {
 constexpr double kWindow_m = 0.12;
 constexpr std::size_t kFewestBeside = 3, kMostBeside = 20;
 
-std::vector<SurfacePoint> points_of(const Scan& scan, const Twist2& velocity) {
+Twist2 part_of(const Twist2& motion, double share) {
+  return {share * motion.x_m, share * motion.y_m, share * motion.theta_rad};
+}
+
+/// Where the scanner was at a beam, seen from where it was at the first one.
+class BeamPoses {
+ public:
+  explicit BeamPoses(std::span<const Twist2> way) : way_(way) {}
+
+  /// To be called for the beams in order; `share` of the scan's time, below 1.
+  Pose2 at(double share) {
+    const double place = share * static_cast<double>(way_.size());
+    for (; static_cast<double>(part_ + 1) <= place && part_ + 1 < way_.size(); ++part_)
+      begin_ = begin_ * way_[part_].exp();
+    return begin_ * part_of(way_[part_], place - static_cast<double>(part_)).exp();
+  }
+
+ private:
+  std::span<const Twist2> way_;
+  std::size_t part_ = 0;
+  Pose2 begin_;  // of the part
+};
+
+std::vector<SurfacePoint> points_of(const Scan& scan, std::span<const Twist2> way) {
   std::vector<SurfacePoint> points;
+  BeamPoses poses(way);
+  const auto beams = static_cast<double>(scan.ranges_m.size());
   points.reserve(scan.ranges_m.size());
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
     const double range_m = scan.ranges_m[beam];
     if (!(range_m > scan.range_min_m && range_m < scan.range_max_m)) continue;
     const double angle_rad = scan.first_angle_rad + static_cast<double>(beam) * scan.angle_step_rad;
-    const double late_s = static_cast<double>(beam) * scan.beam_interval_s;
     const Point2 seen{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
-    const Twist2 moved{late_s * velocity.x_m, late_s * velocity.y_m, late_s * velocity.theta_rad};
-    const Point2 at = late_s > 0 ? moved.exp() * seen : seen;
+    const Point2 at = beam > 0 && !way.empty() ? poses.at(static_cast<double>(beam) / beams) * seen : seen;
     // Odd angles or times of a scan give points that have no order.
     if (std::isfinite(at.x_m) && std::isfinite(at.y_m)) points.push_back({at, {}, false});
   }
@@ -73,8 +96,8 @@ void find_normal(std::span<SurfacePoint> points, std::size_t i, double step_rad)
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_of(const Scan& scan, const Twist2& velocity) {
-  std::vector<SurfacePoint> points = points_of(scan, velocity);
+std::vector<SurfacePoint> surface_of(const Scan& scan, std::span<const Twist2> way) {
+  std::vector<SurfacePoint> points = points_of(scan, way);
   for (std::size_t i = 0; i < points.size(); ++i) find_normal(points, i, std::abs(scan.angle_step_rad));
   return points;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "host/base/pose2.hpp"
@@ -18,9 +19,9 @@ struct SurfacePoint {
 /// of the scan's limits are left out. A normal is that of the points within about 12 cm, at least three on each side, so that it
 /// does not get noisier the denser the beams are.
 ///
-/// velocity: that of the scanner in its own frame, in units per second; the beams are put where they were measured from (a spinning
-/// scanner takes 0.1 to 0.2 s for a turn, in which the robot drives on).
-std::vector<SurfacePoint> surface_of(const Scan& scan, const Twist2& velocity);
+/// way: the scanner's motions in its own frame, each over an equal part of the time that the scan takes (a spinning scanner takes 0.1
+/// to 0.2 s for a turn, in which the robot drives on). The beams are put where they were measured from. Empty: it stood still.
+std::vector<SurfacePoint> surface_of(const Scan& scan, std::span<const Twist2> way);
 
 /// The same scan of a scanner whose beams run the other way round, or that hangs upside down.
 Scan mirrored(Scan scan);

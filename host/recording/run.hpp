@@ -40,7 +40,7 @@ struct RunInfo {
   double speed_mps = 0;
   std::string robot_name, robot_id, board, firmware;
   std::string started_at;    // ISO 8601, UTC
-  std::string truth_source;  // "sim", "manual", "file", "" if none
+  std::string truth_source;  // "sim", "manual", "file", "lidar", "" if none
   std::string truth_clock;   // "robot"; "host": mapped from the recording computer's
   /// Identifies the film that the truth is from by its content (film_track.hpp); "" if there is none.
   std::string truth_film = {};

@@ -61,11 +61,6 @@ std::string group_title(const RunInfo& info) {
 
 constexpr std::size_t kPointsPerRun = 1500;
 
-json rounded(double value, double per_unit) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::round(value * per_unit) / per_unit;
-}
-
 json cluster(std::size_t phase, const char* direction, const std::vector<calibration::EndPose>& ends,
              const calibration::ClusterSummary& summary) {
   json x = json::array(), y = json::array();
@@ -163,6 +158,11 @@ std::string group_section(const ReportInput& input, const RunGroup& group, std::
 }
 
 }  // namespace
+
+json rounded(double value, double per_unit) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::round(value * per_unit) / per_unit;
+}
 
 std::size_t RunGroup::most_runs() const {
   std::size_t most = 0;

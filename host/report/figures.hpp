@@ -25,6 +25,9 @@ struct RunGroup {
 /// odometry sample are left out. The pointers live as long as `phases`.
 std::vector<RunGroup> group_runs(const std::vector<Phase>& phases);
 
+/// To 1 / per_unit; null if it is no number.
+nlohmann::json rounded(double value, double per_unit);
+
 /// A point of a run for the figures: odometry and its error at the same time, in the run's start frame, time from its
 /// first odometry sample. `error` is truth - odometry, NaN where the tracker had lost the robot.
 struct SeriesPoint {

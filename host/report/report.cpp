@@ -10,6 +10,7 @@
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
 #include "host/report/page.hpp"
+#include "host/report/scans.hpp"
 #include "host/report/squares.hpp"
 #include "host/report/tables.hpp"
 
@@ -139,11 +140,13 @@ Section provenance(const ReportInput& input) {
 
 std::string render_html(const ReportInput& input) {
   const auto groups = group_runs(input.phases);
+  nlohmann::json data = figure_data(input.phases, groups);
+  data["scans"] = scan_data(input);
   return render_page(
       input.title,
-      {parameter_table(input), headline(input), drive_comparison(input), history(input), scatter(input),
-       factor_table(input), rms_tables(input), run_figures(input, groups), provenance(input)},
-      figure_data(input.phases, groups));
+      {parameter_table(input), headline(input), drive_comparison(input), scan_section(input), history(input),
+       scatter(input), factor_table(input), rms_tables(input), run_figures(input, groups), provenance(input)},
+      data);
 }
 
 void write_report(const std::filesystem::path& path, const ReportInput& input) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/pose2.hpp"
 #include "host/calibration/end_poses/end_pose.hpp"
 #include "host/recording/run.hpp"
 
@@ -57,6 +58,18 @@ struct DriveComparison {
   DriveFigures before, after;  // root mean squares over the drives
 };
 
+/// What a laser scanner on the robot saw, where dead reckoning with the factors of before and of after puts it.
+struct ScanFigures {
+  std::string drive;                  // of the maps
+  std::vector<Point2> before, after;  // of the walls, seen from the drive's start
+  struct Residual {
+    double way_m = 0;  // that was driven by then, in all drives
+    Pose2 before,
+        after;  // by how much further the scans moved than the wheels say, over a stretch of some decimetres
+  };
+  std::vector<Residual> residuals;
+};
+
 struct ReportInput {
   std::string title;
   std::vector<DescriptionRow> description;  // the robot and the set-up
@@ -65,6 +78,7 @@ struct ReportInput {
   bool not_loaded = false;                      // `after` of the parameters was found and is not in the robot
   std::string reason;                           // whether to use them, and why
   std::optional<DriveComparison> comparison{};  // for drives that are no squares
+  std::optional<ScanFigures> scans{};           // if a laser scanner was the ground truth
   std::string method;              // how the parameters were found; a blank line starts a new paragraph
   std::vector<std::string> notes;  // anything else a reader should know, such as seeds
 };

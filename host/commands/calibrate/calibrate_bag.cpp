@@ -41,6 +41,7 @@ void add_calibrate_bag(console::Command calibrate) {
   add_session_flag(command, options->import.session_per_folder);
   add_scan_topic(command, options->scan_topic);
   add_output(command, options->output);
+  add_report_file(command, options->output);
   add_ml(command, options->ml);
   command.footer(
       "Sizes that are not given are those of the robot_description (URDF) that was recorded in the bag.\n"
@@ -67,8 +68,8 @@ void add_calibrate_bag(console::Command calibrate) {
       throw console::WrongUsage("--K, --sigma-xy, --sigma-theta and --clock do not apply to scans");
     if (by_scans) return calibrate_by_scans(with_scans(import), options->output, options->scan_topic);
     import.truth = import.wheels;
-    put_out(experiment::calibrate(read_drive_files(options->import),
-                                  {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()),
+    const experiment::RunSet set = read_drive_files(options->import);
+    put_out(experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()), set,
             options->output);
   });
 }

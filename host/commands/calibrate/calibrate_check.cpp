@@ -19,6 +19,7 @@
 #include "host/experiment/analysis/dead_reckoning.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
+#include "host/experiment/analysis/scanned_runs.hpp"
 #include "host/experiment/analysis/squares.hpp"
 #include "host/experiment/files/factors_json.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
@@ -65,6 +66,8 @@ experiment::RunSet read_drives(const CheckOptions& options) {
   warn_of_recordings(set.runs);
   if (options.import.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
   give_films(set, options.import);
+  for (recording::Run& run : set.runs)  // recorded while another program drove
+    if (run.truth.empty() && !run.scans.empty()) experiment::give_truth_by_scans(run);
   return set;
 }
 

@@ -33,6 +33,7 @@ void add_calibrate_files(console::Command calibrate) {
   add_import(command, options->import);
   add_scan_topic(command, options->scan_topic);
   add_output(command, options->output);
+  add_report_file(command, options->output);
   add_ml(command, options->ml);
   command.footer(
       "For any differential-drive robot under any tracker. The clocks of both need not agree.\n"
@@ -61,8 +62,8 @@ void add_calibrate_files(console::Command calibrate) {
       return calibrate_by_scans(options->import, options->output, options->scan_topic);
     if (!options->scan_topic.empty())
       throw console::WrongUsage("--scan-topic does not apply here: no --truth is scan:FILE");
-    put_out(experiment::calibrate(read_drive_files(options->import),
-                                  {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()),
+    const experiment::RunSet set = read_drive_files(options->import);
+    put_out(experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()), set,
             options->output);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.hpp"
@@ -16,11 +17,14 @@
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/method_option.hpp"
+#include "host/console/wrong_usage.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/experiment/analysis/scanned_runs.hpp"
 #include "host/experiment/files/folder_sessions.hpp"
 #include "host/experiment/files/run_set.hpp"
 #include "host/experiment/files/run_set_problem.hpp"
+#include "host/lidar/surface.hpp"
 
 namespace astro::commands {
 namespace {
@@ -34,10 +38,19 @@ struct RunsOptions {
   MlOption ml;
   MethodOption method;
   FilmTruthOption film;
-  bool damaged = false, session_per_folder = false;
+  bool damaged = false, session_per_folder = false, mirrored = false;
 };
 
-experiment::Calibration calibrate_runs(const RunsOptions& options) {
+void mirror_scans(experiment::RunSet& set) {
+  for (recording::Run& run : set.runs) {
+    if (run.scans.empty())
+      throw console::WrongUsage("--truth-mirrored is of scans, and not all runs have scans");
+    for (lidar::Scan& scan : run.scans) scan = lidar::mirrored(std::move(scan));
+    experiment::give_truth_by_scans(run);
+  }
+}
+
+void calibrate_runs(const RunsOptions& options) {
   const experiment::MethodChoice method = options.method.choice();
   experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
     return experiment::read_run_set(options.folder, options.without, damage);
@@ -45,7 +58,8 @@ experiment::Calibration calibrate_runs(const RunsOptions& options) {
   warn_of_recordings(set.runs);
   if (options.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
   give_truth(set, options.film);
-  experiment::Calibration found = experiment::calibrate(set, method, options.ml.choice());
+  if (options.mirrored) mirror_scans(set);
+  const experiment::Calibration found = experiment::calibrate(set, method, options.ml.choice());
   if (found.ml() == nullptr && options.session_per_folder)
     throw Error(fmt::format("--session-per-folder is of maximum likelihood, and this is {}: leave it out",
                             found.method()));
@@ -54,7 +68,7 @@ experiment::Calibration calibrate_runs(const RunsOptions& options) {
         fmt::format("--K, --sigma-xy, --sigma-theta and --clock are of maximum likelihood, and this "
                     "is {}: leave them out",
                     found.method()));
-  return found;
+  put_out(found, set, options.output);
 }
 
 constexpr const char* kLeaveRunOut = ": leave it out (of a folder: 'astrolabe calibrate runs --without {0}')";
@@ -121,15 +135,20 @@ void add_calibrate_runs(console::Command calibrate) {
   const console::Command command =
       calibrate.add_subcommand("runs", "from recorded runs with ground truth (MCAP)");
   command.add_option("folder", options->folder, "folder with the recordings").required();
-  add_method(command, options->method, {"auto", "ml", "umbmark", "extended", "least-squares", "robust"},
+  add_method(command, options->method,
+             {"auto", "ml", "scan", "umbmark", "extended", "least-squares", "robust"},
              "ml: maximum likelihood over whole drives of any\n"
-             "kind; the others: from end poses of squares; auto:\n"
-             "ml where ground truth followed every run, else\n"
-             "robust");
+             "kind; scan: the same from scans of a laser scanner;\n"
+             "the others: from end poses of squares; auto: scan\n"
+             "or ml where scans or ground truth followed every\n"
+             "run, else robust");
   add_output(command, options->output);
+  add_report_file(command, options->output);
   add_ml(command, options->ml);
   command.add_option("--without", options->without, "a recording to leave out, by its name (repeatable)")
       .one_each_time();
+  command.add_flag("--truth-mirrored", options->mirrored,
+                   "scans: the laser scanner hung upside down, or its\nbeams ran the other way round");
   add_damaged_flag(command, options->damaged);
   add_session_flag(command, options->session_per_folder);
   add_film_truth(command, options->film);
@@ -138,12 +157,12 @@ void add_calibrate_runs(console::Command calibrate) {
       "other methods find how they differ from the loaded ones, from the\n"
       "squares of one phase.\n"
       "Examples:\n"
-      "  astrolabe calibrate runs my-experiment/before --out calib.toml\n"
+      "  astrolabe calibrate runs my-experiment/before --out calib.toml --report report.html\n"
       "  astrolabe calibrate runs my-experiment --without before/square-cw-3\n"
       "  astrolabe calibrate runs my-experiment/before --method umbmark --angles average --json\n"
       "  astrolabe calibrate runs drives --truth film:drives.mp4 --tag-side 120.1mm --tag-height 121mm \\\n"
       "    --floor-tag-side 160mm --tape 1:4=3.46 --out calib.toml");
-  command.callback([options] { put_out(calibrate_runs(*options), options->output); });
+  command.callback([options] { calibrate_runs(*options); });
 }
 
 }  // namespace astro::commands

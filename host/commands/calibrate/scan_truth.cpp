@@ -10,15 +10,13 @@
 #include <vector>
 
 #include "host/commands/base/advice.hpp"
-#include "host/commands/calibrate/scan_text.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/option_words.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
-#include "host/console/program.hpp"
 #include "host/console/wrong_usage.hpp"
+#include "host/experiment/analysis/scan_figures.hpp"
 #include "host/import/scans/carmen_log.hpp"
-#include "host/import/scans/scan_result.hpp"
 #include "host/import/scans/scanned_drives.hpp"
 #include "host/lidar/scan_calibration.hpp"
 
@@ -31,7 +29,9 @@ constexpr std::string_view kPrefix = "scan:";
 
 constexpr Advice kScanAdvice[] = {
     {lidar::ScanProblem::mirrored,
-     "; give --truth-mirrored yes if it is the scans, --swap-wheels if it is the wheels"},
+     "; give --truth-mirrored if it is the scans (of files and bags --truth-mirrored yes); if it is the "
+     "wheels, "
+     "of files and bags --swap-wheels, and for a robot of ours 'astrolabe check-wiring'"},
     {lidar::ScanProblem::not_mirrored,
      "; leave out --truth-mirrored yes, or give --swap-wheels if left and right are exchanged as well"},
     {importing::ScanFileProblem::topic_unclear, ": name one with --scan-topic"},
@@ -40,7 +40,9 @@ constexpr Advice kScanAdvice[] = {
 
 std::optional<fs::path> scans_named(const fs::path& word) {
   const std::string& text = word.native();
-  if (!text.starts_with(kPrefix) || text.size() == kPrefix.size()) return std::nullopt;
+  if (text == kPrefix)
+    throw console::WrongUsage("--truth scan: names no file: write scan:FILE, as scan:drive.mcap");
+  if (!text.starts_with(kPrefix)) return std::nullopt;
   return fs::path(text.substr(kPrefix.size()));
 }
 
@@ -76,35 +78,24 @@ bool names_scans(const ImportOptions& options) {
 }
 
 void add_scan_topic(console::Command command, std::string& topic) {
+  advise(kScanAdvice);
   command.add_option("--scan-topic", topic, "bags: the topic of the laser scanner's scans")
       .type_name("TOPIC");
 }
 
 void calibrate_by_scans(const ImportOptions& options, const CalibrationOutput& output,
                         const std::string& scan_topic) {
-  advise(kScanAdvice);
   const std::vector<importing::DriveFiles> files = files_of(options);
   const importing::ScannedDrives drives = stated([&] {
     refuse_unused(options, files);
     return importing::scanned_drives(files, importing::choices_of(options), scan_topic);
   });
   for (const Remark& remark : drives.remarks) console::say(in_words(remark));
-  const lidar::ScanCalibration found =
-      lidar::calibrate_by_scans(drives.drives, drives.loaded, options.mirrored == "yes");
-  for (const Remark& remark : found.remarks) console::say(in_words(remark));
-  const bool better = importing::verdict_of(found) == calibration::Verdict::better;
-  if (!output.file.empty()) {
-    experiment::write_parameter_file(output.file, importing::parameter_file_of(found, drives.wheel));
-    console::say("written to " + output.file.string() +
-                 (better ? "; load it with: astrolabe upload " + output.file.string()
-                         : ", although it is not shown to be better than what the robot carries"));
-  }
-  if (output.json) {
-    print_json(importing::to_json(found));
-  } else {
-    write(scan_result_text(found));
-  }
-  if (!better) console::answer_no();
+  const bool mirrored = options.mirrored == "yes";
+  experiment::Calibration found =
+      experiment::calibration_of(lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored));
+  found.wheel = drives.wheel;
+  put_out(found, output, [&] { return experiment::scan_report(found, drives.drives, mirrored); });
 }
 
 }  // namespace astro::commands

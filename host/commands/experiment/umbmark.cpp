@@ -38,6 +38,7 @@
 #include "host/experiment/files/plan.hpp"
 #include "host/experiment/files/plan_problem.hpp"
 #include "host/report/report.hpp"
+#include "host/truth/live/scanner_source.hpp"
 #include "host/wall/wall_robot.hpp"
 
 namespace astro::commands {
@@ -148,11 +149,10 @@ void conclude(const experiment::Results& results, const std::filesystem::path& r
     for (const std::string& square : results.left_out()) print(wrapped(square + '.'));
     write(console::table(experiment::before_after_table(results)) + '\n');
     if (results.phases.size() > 1) write(wrapped(results.verdict()));
-    if (const experiment::Calibration* const found = results.latest();
-        found != nullptr && found->ml() != nullptr)
+    if (const experiment::Calibration* const found = results.latest(); found != nullptr && found->absolute())
       write(wrapped(experiment::wheelbase_sentence(*found)));
     if (not_loaded != nullptr)
-      write(wrapped(experiment::judgement_sentence(not_loaded->judgement) +
+      write(wrapped(experiment::judgement_sentence(*not_loaded) +
                     " It was not loaded; --force loads it all the same."));
     print("Report: " + report.string());
   }
@@ -168,7 +168,8 @@ void run(UmbmarkOptions& options) {
   options.plan.order = experiment::order_named(options.order);
   options.plan.method = options.method.choice();
   options.plan.extras = !options.no_extras;
-  options.plan.truth = options.truth.source;
+  // The port of a scanner may be another one when the experiment is resumed.
+  options.plan.truth = truth::scanner_port_in(options.truth.source) ? "lidar" : options.truth.source;
   if (options.until_option.count() > 0) options.plan.until = options.until;
   options.plan.check();
   if (options.truth_folder.count() > 0 && !std::filesystem::is_directory(options.truth.folder))
@@ -259,6 +260,7 @@ void add_umbmark(console::Command app) {
       "  astrolabe umbmark --port /dev/ttyACM0 --truth vrpn://lab-pc:3883/ASTRO --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth ros2:/vrpn_mocap/robot/pose --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth manual --runs 5 --side 3 --out my-experiment\n"
+      "  astrolabe umbmark --port /dev/ttyACM0 --truth lidar:/dev/ttyUSB0 --out my-experiment\n"
       "  astrolabe umbmark --port /dev/ttyACM0 --truth wall --out my-experiment\n"
       "  astrolabe umbmark --truth sim --until 0.05% --out my-experiment\n"
       "  astrolabe umbmark --port P --truth sim --runs 5 --side 3 --out DIR --yes --json");

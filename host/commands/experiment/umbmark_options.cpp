@@ -22,16 +22,19 @@ void add_umbmark_options(console::Command command, UmbmarkOptions& options) {
   experiment::Plan& plan = options.plan;
   add_connection(command, options.connection);
   command
-      .add_option("--truth", options.truth.source,
-                  "sim, manual (tape measure), film or film:FILE (a phone\nfilms a printed tag), wall (and "
-                  "ruler), file, "
-                  "or a\ntracker: vrpn://HOST/BODY, natnet://HOST/BODY,\nros2:/TOPIC")
+      .add_option(
+          "--truth", options.truth.source,
+          "sim, manual (tape measure), film or film:FILE (a phone\nfilms a printed tag), wall (and "
+          "ruler), file, "
+          "lidar:PORT\n(an RPLIDAR on the robot), or a tracker:\nvrpn://HOST/BODY, natnet://HOST/BODY, "
+          "ros2:/TOPIC (poses,\nor scans of a laser scanner)")
       .type_name("SOURCE")
-      .check(truth_source({"sim", "manual", "file", "film", "wall"}))
+      .check(truth_source({"sim", "manual", "file", "film", "wall", "lidar"}))
       .required();
   options.truth_folder = command.add_option("--truth-folder", options.truth.folder,
                                             "--truth file: where the CSV of each run appears;\n"
                                             "default: OUT/truth");
+  add_mirrored_scans(command, options.truth);
   options.unit_option =
       command
           .add_option("--unit", options.unit,
@@ -86,9 +89,11 @@ void add_umbmark_options(console::Command command, UmbmarkOptions& options) {
                   "--no-extras", options.no_extras,
                   "squares only, no line and circles: whether gentle arcs\nturn about another wheelbase (e) "
                   "is not looked for"));
-  add_method(command, options.method, {"auto", "ml", "umbmark", "extended", "least-squares", "robust"},
-             "auto: ml (maximum likelihood over whole drives)\n"
-             "with ground truth along the way, else robust");
+  add_method(command, options.method,
+             {"auto", "ml", "scan", "umbmark", "extended", "least-squares", "robust"},
+             "auto: scan with a laser scanner, ml (maximum likelihood\n"
+             "over whole drives) with other ground truth along the\n"
+             "way, else robust");
   not_of_wall("--pause", command.add_flag("--pause", options.pause,
                                           "wait for Enter before each run (always with --truth manual)"));
   add_wall_options(command, options.wall);

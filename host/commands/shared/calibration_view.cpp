@@ -12,6 +12,7 @@
 #include "host/console/console.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
+#include "host/experiment/analysis/scan_sentences.hpp"
 #include "host/experiment/analysis/until.hpp"
 #include "host/experiment/files/method_names.hpp"
 
@@ -144,6 +145,16 @@ std::string ml_text(const Calibration& found) {
   return text;
 }
 
+std::string scans_text(const Calibration& found) {
+  const lidar::ScanCalibration& scans = *found.scans();
+  std::string text = wrapped(experiment::scanner_sentence(scans));
+  if (const std::string changed = experiment::changed_sentence(scans); !changed.empty())
+    text += wrapped(changed);
+  text += wrapped(experiment::wheelbase_sentence(found));
+  for (const Remark& remark : scans.remarks) text += wrapped("Take care: " + in_words(remark) + '.');
+  return text;
+}
+
 }  // namespace
 
 std::string calibration_text(const Calibration& calibration) {
@@ -152,28 +163,36 @@ std::string calibration_text(const Calibration& calibration) {
   if (const calibration::Estimate* estimate = calibration.end_poses()) text += end_pose_text(*estimate);
   const MlResult* ml = calibration.ml();
   if (ml != nullptr) text += wrapped(experiment::extent_sentence(*ml));
+  const lidar::ScanCalibration* scans = calibration.scans();
+  if (scans != nullptr) text += wrapped(experiment::matches_sentence(*scans));
   text += factors_text(calibration);
   if (ml != nullptr) text += sentence_on_scale(calibration);
-  text += ml != nullptr
-              ? '\n' + ml_text(calibration)
+  text += ml != nullptr ? '\n' + ml_text(calibration)
+          : scans != nullptr
+              ? '\n' + scans_text(calibration)
               : wrapped(scale_text(calibration)) + left_out_text(calibration) + misfit_text(calibration);
   return text + '\n' + wrapped(experiment::drift_sentence(calibration.drift)) +
-         wrapped(experiment::judgement_sentence(calibration.judgement));
+         wrapped(experiment::judgement_sentence(calibration));
 }
 
 std::string calibration_summary(const Calibration& calibration) {
+  const std::string precision =
+      "Standard errors of these drives: " + experiment::described(experiment::precision_of(calibration)) +
+      ".";
+  if (const lidar::ScanCalibration* scans = calibration.scans())
+    return wrapped(experiment::matches_sentence(*scans)) + wrapped(precision) + scans_text(calibration) +
+           wrapped(experiment::drift_sentence(calibration.drift)) +
+           wrapped(experiment::judgement_sentence(calibration));
   const MlResult* ml = calibration.ml();
   if (ml == nullptr)
     return fmt::format("calibrated by {}:\n", calibration.method()) + left_out_text(calibration) +
            wrapped(scale_text(calibration)) + misfit_text(calibration) +
-           wrapped(experiment::judgement_sentence(calibration.judgement));
-  std::string text = wrapped(experiment::extent_sentence(*ml)) +
-                     wrapped("Standard errors of these drives: " +
-                             experiment::described(experiment::precision_of(calibration)) + ".") +
+           wrapped(experiment::judgement_sentence(calibration));
+  std::string text = wrapped(experiment::extent_sentence(*ml)) + wrapped(precision) +
                      wrapped(experiment::drift_sentence(calibration.drift)) +
                      wrapped(experiment::wheelbase_sentence(calibration)) + sentence_on_scale(calibration);
   text += verdict_text(*ml);
-  return text + wrapped(experiment::judgement_sentence(calibration.judgement));
+  return text + wrapped(experiment::judgement_sentence(calibration));
 }
 
 }  // namespace astro::commands

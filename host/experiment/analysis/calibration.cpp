@@ -13,7 +13,10 @@
 #include "host/calibration/judgement/end_pose_validation.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/noise_of_ends.hpp"
+#include "host/calibration/motion/spread_of_e.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
+#include "host/experiment/analysis/scan_sentences.hpp"
+#include "host/experiment/analysis/scanned_runs.hpp"
 #include "host/experiment/files/method_names.hpp"
 
 namespace astro::experiment {
@@ -30,16 +33,17 @@ calibration::Options options_for(const MethodChoice& method) {
 
 using Phases = std::span<const std::shared_ptr<const Recordings>>;
 
-bool has_moving_truth_throughout(const Recordings& recordings) {
-  return std::all_of(recordings.runs().begin(), recordings.runs().end(),
-                     [](const auto& run) { return has_moving_truth(run.info); });
-}
-
-bool uses_ml(Phases phases, const MethodChoice& method) {
-  return method.family == Family::ml || (method.family == Family::automatic &&
-                                         std::all_of(phases.begin(), phases.end(), [](const auto& phase) {
-                                           return has_moving_truth_throughout(*phase);
-                                         }));
+/// What `automatic` means for these runs.
+Family family_of(Phases phases, const MethodChoice& method) {
+  if (method.family != Family::automatic) return method.family;
+  const auto all = [&](const auto& is) {
+    return std::all_of(phases.begin(), phases.end(), [&](const auto& phase) {
+      return std::all_of(phase->runs().begin(), phase->runs().end(), is);
+    });
+  };
+  if (all([](const recording::Run& run) { return !run.scans.empty(); })) return Family::scans;
+  if (all([](const recording::Run& run) { return has_moving_truth(run.info); })) return Family::ml;
+  return Family::end_poses;
 }
 
 /// Not an error if there are no squares, or not in both directions, or not all alike: maximum likelihood needs
@@ -194,6 +198,25 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   return result;
 }
 
+static_assert(calibration::PriorOfE::kStandardDeviation == calibration::kSpreadOfE,
+              "e is known alike beforehand, whatever the method");
+
+Calibration by_scans(Phases phases) {
+  const Recordings& first = *phases.front();
+  std::vector<lidar::ScannedDrive> drives;
+  for (const auto& phase : phases)
+    for (std::size_t i = 0; i < phase->runs().size(); ++i) {
+      const recording::Run& run = phase->runs()[i];
+      require_comparable(first.runs().front().info, first.names().front(), run.info, phase->names()[i]);
+      drives.push_back(scanned_drive(run, phase->names()[i]));
+    }
+  Calibration result = calibration_of(lidar::calibrate_by_scans(drives, last_loaded(phases)));
+  result.robot = identity_of(first.runs().front().info);
+  result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
+  result.squares = summary_of_squares(*phases.back());
+  return result;
+}
+
 /// The squares of the last phase with the lines of all.
 Squares squares_and_lines(Phases phases) {
   Squares squares = phases.back()->squares();
@@ -273,14 +296,21 @@ void add_drift(Calibration& result) {
 void require_truth(Phases phases) {
   for (const auto& phase : phases)
     for (const recording::Run& run : phase->runs())
-      if (!run.truth.empty()) return;
+      if (!run.truth.empty() || !run.scans.empty()) return;
   throw Error("none of the recordings has ground truth, so nothing tells where the robot really was",
               AnalysisProblem::no_truth);
 }
 
 Calibration calibrate_phases(Phases phases, const MethodChoice& method, const MlChoice& ml) {
   require_truth(phases);
-  return uses_ml(phases, method) ? by_ml(phases, ml) : by_end_poses(phases, method);
+  switch (family_of(phases, method)) {
+    case Family::ml:
+      return by_ml(phases, ml);
+    case Family::scans:
+      return by_scans(phases);
+    default:
+      return by_end_poses(phases, method);
+  }
 }
 
 /// estimate_factors, whose errors name a run by its direction and number; these say before it where the run is from.
@@ -308,8 +338,9 @@ bool clock_known(const RunSet& set, MlChoice::Clock clock) {
 }
 
 std::string_view Calibration::method() const {
-  const calibration::Estimate* estimate = end_poses();
-  return estimate == nullptr ? kMlName : calibration::name_of(estimate->options.method);
+  if (const calibration::Estimate* estimate = end_poses())
+    return calibration::name_of(estimate->options.method);
+  return scans() != nullptr ? kScanName : kMlName;
 }
 
 double Calibration::E_d() const {
@@ -326,8 +357,8 @@ double Calibration::E_b() const {
 double Calibration::scale_change() const { return 2 * scale() / (loaded.c_r + loaded.c_l); }
 
 Calibration calibrate(const Squares& squares, const MethodChoice& method) {
-  if (method.family == Family::ml)
-    throw Error("maximum likelihood needs whole drives with ground truth, and end poses are all there is",
+  if (method.family == Family::ml || method.family == Family::scans)
+    throw Error("this method needs whole drives with ground truth, and end poses are all there is",
                 AnalysisProblem::end_poses_only);
   const calibration::Options options = options_for(method);
   const calibration::Estimate estimate = estimate_of(squares, options);
@@ -349,6 +380,18 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
     apply(*scale, result);
   }
   add_drift(result);
+  return result;
+}
+
+Calibration calibration_of(lidar::ScanCalibration found) {
+  Calibration result;
+  result.loaded = found.loaded;
+  result.factors = found.factors;
+  result.se = factor_errors(found.covariance, result);
+  result.covariance_another_day = found.covariance + result.drift.covariance(found.factors);
+  result.se_another_day = factor_errors(*result.covariance_another_day, result);
+  result.judgement.verdict = verdict_of(found);
+  result.detail = std::move(found);
   return result;
 }
 

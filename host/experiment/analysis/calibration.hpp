@@ -20,6 +20,7 @@
 #include "host/experiment/files/plan.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/experiment/files/run_set.hpp"
+#include "host/lidar/scan_calibration.hpp"
 
 /// Calibrates wheel factors from recordings, with any of the methods.
 namespace astro::experiment {
@@ -57,7 +58,7 @@ struct Calibration {
   std::optional<NominalWheel> wheel;  // to which c_R and c_L refer, if a recording names it
   /// End errors of the squares among the runs, if squares of one kind were driven in both directions.
   std::optional<calibration::ExperimentSummary> squares;
-  std::variant<calibration::Estimate, MlResult> detail;
+  std::variant<calibration::Estimate, MlResult, lidar::ScanCalibration> detail;
   /// Relative standard error of the scale of the ground truth, which maximum likelihood cannot estimate. It is part of the
   /// errors of c_R, c_L, b and S. It is infinite if nobody measured a length; then S stays as loaded, and only E_d and b / S
   /// are found.
@@ -71,7 +72,8 @@ struct Calibration {
 
   const MlResult* ml() const { return std::get_if<MlResult>(&detail); }
   const calibration::Estimate* end_poses() const { return std::get_if<calibration::Estimate>(&detail); }
-  /// "ml", "umbmark", "extended", "least-squares", "robust".
+  const lidar::ScanCalibration* scans() const { return std::get_if<lidar::ScanCalibration>(&detail); }
+  /// "ml", "scan", "umbmark", "extended", "least-squares", "robust".
   std::string_view method() const;
 
   /// How the factors differ from the loaded ones: wheel ratio and wheelbase, new over loaded. By end poses, E_b contains the
@@ -84,9 +86,9 @@ struct Calibration {
   /// Whether e is to be reported, because it was found or an e was loaded.
   bool shows_e() const { return factors.e != 0 || loaded.e != 0; }
 
-  /// Whether the factors are right whatever is loaded in the robot by now. Those of maximum likelihood are, because they
-  /// refer to the nominal wheel; those of end poses are not, because they are composed with `loaded`.
-  bool absolute() const { return ml() != nullptr; }
+  /// Whether the factors are right whatever is loaded in the robot by now. Those of maximum likelihood and of scans are, because
+  /// they refer to the nominal wheel; those of end poses are not, because they are composed with `loaded`.
+  bool absolute() const { return end_poses() == nullptr; }
 };
 
 /// Settings of maximum likelihood beyond the runs.
@@ -100,10 +102,11 @@ struct MlChoice {
 /// Whether all truth is on the robot's own clock: as `clock` says or, if that is automatic, as the recordings say.
 bool clock_known(const RunSet& set, MlChoice::Clock clock);
 
-/// automatic: maximum likelihood if all runs have moving truth, otherwise the method of calibrate(Squares). Maximum
-/// likelihood takes runs of every kind, the methods of end poses take the squares and lines among them.
+/// automatic: by scans if all runs have scans of a laser scanner, by maximum likelihood if all have moving truth, otherwise by the
+/// method of calibrate(Squares). The first two take runs of every kind, the methods of end poses take the squares and lines among
+/// them.
 ///
-/// Throws astro::Error: see trajectories_of, calibration::estimate_ml, squares_of and
+/// Throws astro::Error: see trajectories_of, calibration::estimate_ml, lidar::calibrate_by_scans, squares_of and
 /// calibration::estimate_factors.
 Calibration calibrate(const Recordings& recordings, const MethodChoice& method, const MlChoice& ml = {});
 
@@ -117,5 +120,8 @@ Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> p
 /// From end poses and measured lines alone; automatic: robust. Throws astro::Error if the method is maximum likelihood,
 /// which needs more; and what calibration::estimate_factors and calibration::scale_of_lines throw.
 Calibration calibrate(const Squares& squares, const MethodChoice& method);
+
+/// What scans say, as a calibration. Robot, wheel and squares are not known here.
+Calibration calibration_of(lidar::ScanCalibration found);
 
 }  // namespace astro::experiment

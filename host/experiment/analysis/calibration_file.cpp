@@ -90,11 +90,11 @@ std::string calibration_lines(const Calibration& calibration) {
   return text;
 }
 
-std::string verdict_lines(const calibration::CrossValidation& judgement) {
+std::string verdict_lines(const Calibration& calibration) {
   std::ostringstream text;
   text << "\n# On drives that the calibration had not seen.\n[verdict]\nverdict = \""
-       << name_of(judgement.verdict) << "\"\nsentence = " << toml::value(judgement_sentence(judgement))
-       << '\n';
+       << name_of(calibration.judgement.verdict)
+       << "\"\nsentence = " << toml::value(judgement_sentence(calibration)) << '\n';
   return text.str();
 }
 
@@ -203,7 +203,7 @@ void write_calibration(const fs::path& path, const Calibration& calibration) {
   if (calibration.wheel) text += nominal_lines(*calibration.wheel);
   if (!calibration.robot.id.empty()) text += robot_lines(calibration.robot);
   text += "# The factors that were loaded in the robot while it drove.\n[carried]\n" + factor_lines(loaded);
-  save(path, kFoundFactors, text + calibration_lines(calibration) + verdict_lines(calibration.judgement));
+  save(path, kFoundFactors, text + calibration_lines(calibration) + verdict_lines(calibration));
 }
 
 void write_parameters(const fs::path& path, const ParameterValues& values) {

@@ -163,7 +163,29 @@ nlohmann::json held_out_json(const calibration::HeldOutErrors& errors) {
           {"path_m", number(errors.path_m)}};
 }
 
-nlohmann::json judgement_json(const calibration::CrossValidation& judgement) {
+/// The keys of scans alone.
+nlohmann::json scans_json(const lidar::ScanCalibration& found) {
+  const lidar::ScanCounts& counts = found.counts;
+  nlohmann::json remarks = nlohmann::json::array();
+  for (const Remark& remark : found.remarks) remarks.push_back(remark.sentence);
+  return {
+      {"covariance", {{"of", {"c_R", "c_L", "b_m", "e"}}, {"matrix", matrix_json(found.covariance)}}},
+      {"scanner", lever_json({found.scanner.x_m, found.scanner.y_m, wrapped_rad(found.scanner.theta_rad)})},
+      {"scanner_se", lever_json(found.scanner_se)},
+      {"late_s", std::isfinite(found.late_se_s) ? number(found.late_s) : nlohmann::json()},
+      {"late_se_s", number(found.late_se_s)},
+      {"scans",
+       {{"read", counts.scans},
+        {"outside", counts.outside},
+        {"matched", counts.matched},
+        {"one_direction", counts.degenerate},
+        {"unmatched", counts.unmatched},
+        {"gaps", counts.gaps}}},
+      {"remarks", remarks}};
+}
+
+nlohmann::json judgement_json(const Calibration& calibration) {
+  const calibration::CrossValidation& judgement = calibration.judgement;
   nlohmann::json drives = nlohmann::json::array();
   for (const calibration::HeldOutRun& run : judgement.runs)
     drives.push_back({{"name", run.found.name},
@@ -172,14 +194,26 @@ nlohmann::json judgement_json(const calibration::CrossValidation& judgement) {
                       {"gain", number(run.gain)}});
   nlohmann::json not_judged = nlohmann::json::array();
   for (const Remark& remark : judgement.not_judged) not_judged.push_back(remark.sentence);
-  return {{"verdict", name_of(judgement.verdict)},
-          {"use", !advises_against(judgement.verdict)},
-          {"sentence", judgement_sentence(judgement)},
-          {"better_on", judgement.better_on()},
-          {"carried", held_out_json(judgement.in_use())},
-          {"new", held_out_json(judgement.found())},
-          {"drives", drives},
-          {"not_judged", not_judged}};
+  nlohmann::json json = {{"verdict", name_of(judgement.verdict)},
+                         {"use", !advises_against(judgement.verdict)},
+                         {"sentence", judgement_sentence(calibration)}};
+  if (const lidar::ScanCalibration* scans = calibration.scans()) {
+    const lidar::FactorChoice& choice = scans->choice;
+    json.update({{"factors", choice.set.name},
+                 {"pieces", choice.pieces},
+                 {"piece_m", choice.piece_m},
+                 {"gain", number(choice.gain)},
+                 {"gain_se", number(choice.gain_se)},
+                 {"rms_m", number(choice.rms_m)},
+                 {"carried_rms_m", number(choice.loaded_rms_m)}});
+    return json;
+  }
+  json.update({{"better_on", judgement.better_on()},
+               {"carried", held_out_json(judgement.in_use())},
+               {"new", held_out_json(judgement.found())},
+               {"drives", drives},
+               {"not_judged", not_judged}});
+  return json;
 }
 
 }  // namespace
@@ -235,7 +269,8 @@ nlohmann::json to_json(const Calibration& calibration) {
   if (!calibration.left_out.empty()) json["left_out"] = calibration.left_out;
   if (calibration.misfit) json["misfit"] = calibration.misfit->sentence;
   if (const MlResult* ml = calibration.ml()) json.update(likelihood_json(*ml));
-  json["verdict"] = judgement_json(calibration.judgement);
+  if (const lidar::ScanCalibration* scans = calibration.scans()) json.update(scans_json(*scans));
+  json["verdict"] = judgement_json(calibration);
   return json;
 }
 

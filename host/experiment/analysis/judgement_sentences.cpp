@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/experiment/analysis/scan_sentences.hpp"
+
 namespace astro::experiment {
 namespace {
 
@@ -75,6 +77,10 @@ std::string judgement_sentence(const CrossValidation& judgement) {
             "these drives: n"
           : "N",
       seen, rest);
+}
+
+std::string judgement_sentence(const Calibration& found) {
+  return found.scans() != nullptr ? verdict_sentence(*found.scans()) : judgement_sentence(found.judgement);
 }
 
 std::string drift_sentence(const calibration::DayDrift& drift) {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "host/calibration/judgement/cross_validation.hpp"
+#include "host/experiment/analysis/calibration.hpp"
 
 /// Advice on whether to use new factors, in words that the terminal, the report and files share.
 namespace astro::experiment {
@@ -11,6 +12,8 @@ namespace astro::experiment {
 /// The advice and the reason for it: "Better on 6 of 6 drives that it had not seen: the end error is 21 mm instead of 83 mm
 /// ..., so use it.", or "Not better than what the robot carries: ... Keep what it carries."
 std::string judgement_sentence(const calibration::CrossValidation& judgement);
+/// The same of any method: of scans by the pieces of the drives that they were not found from.
+std::string judgement_sentence(const Calibration& found);
 
 /// By how much the robot changes from one day to another, and from what that is known.
 std::string drift_sentence(const calibration::DayDrift& drift);

@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "host/experiment/analysis/judgement_sentences.hpp"
-#include "host/experiment/analysis/likelihood_sentences.hpp"
+#include "host/experiment/analysis/method_text.hpp"
+#include "host/experiment/analysis/scan_figures.hpp"
+#include "host/experiment/analysis/scanned_runs.hpp"
+#include "host/recording/run_metadata.hpp"
 
 namespace astro::experiment {
 namespace {
@@ -48,44 +53,14 @@ std::vector<report::LoadedValue> loaded_of(const Results& results, std::size_t i
   return values;
 }
 
-std::string ml_text(const Calibration& calibration) {
-  const MlResult& ml = *calibration.ml();
-  std::string text =
-      extent_sentence(ml) +
-      " All recordings up to then count, not only the squares. The factors are absolute: they refer to "
-      "the nominal wheel, whatever was loaded in the robot while it drove.\n\n" +
-      lever_sentence(ml) + ' ' + clock_sentence(ml) + "\n\n" + wheelbase_sentence(calibration) + ' ' +
-      scale_sentence(calibration) + ' ' + noise_sentence(ml) + "\n\n";
-  for (const Remark& remark : verdict(ml)) text += remark.sentence + ". ";
-  return text;
-}
-
-std::string scale_text(const Calibration& calibration) {
-  const auto& scale = calibration.line_scale;
-  if (!scale)
-    return "A closed square is blind to the common scale of both wheels, so c_R + c_L is left as it was.";
-  return fmt::format(
-      "A closed square is blind to the common scale of both wheels: {} measured line{} gave S = {:.5f} ± "
-      "{:.5f}.",
-      scale->lines, scale->lines == 1 ? "" : "s", scale->scale, scale->se);
-}
-
-std::string end_pose_text(const Calibration& calibration) {
-  const calibration::Estimate& estimate = *calibration.end_poses();
-  std::string text;
-  if (estimate.options.method == calibration::Method::umbmark)
-    text += fmt::format(" Angles from: {}.", calibration::name_of(estimate.options.angles));
-  if (estimate.options.method == calibration::Method::extended)
-    text += fmt::format(" Formula: {}.", calibration::name_of(estimate.options.formula));
-  return text +
-         "\n\nThe estimate is composed with the factors that were loaded in the robot while it drove. " +
-         scale_text(calibration);
-}
-
-std::string method_text(const Calibration& calibration) {
-  const std::string name = fmt::format("Method: {}.", calibration.method());
-  return name + (calibration.ml() != nullptr ? ' ' + ml_text(calibration) : end_pose_text(calibration)) +
-         "\n\n" + drift_sentence(calibration.drift);
+/// The drives from which the last calibration was found.
+std::vector<lidar::ScannedDrive> drives_before(const Results& results) {
+  const std::size_t calibrated = results.phases.size() - (results.not_loaded() != nullptr ? 0 : 1);
+  std::vector<lidar::ScannedDrive> drives;
+  for (const PhaseResult& phase : std::span(results.phases).first(calibrated))
+    for (const recording::Run& run : phase.runs())
+      drives.push_back(scanned_drive(run, recording::run_name(run.info)));
+  return drives;
 }
 
 }  // namespace
@@ -114,9 +89,9 @@ report::ReportInput report_input(const Results& results) {
   for (const std::string& square : results.left_out()) input.notes.push_back(square + '.');
   if (found == nullptr) return input;
   input.not_loaded = not_loaded != nullptr;
-  input.reason =
-      (input.not_loaded ? "The factors found were not loaded. " : "") + judgement_sentence(found->judgement);
+  input.reason = (input.not_loaded ? "The factors found were not loaded. " : "") + judgement_sentence(*found);
   input.method = method_text(*found);
+  if (found->scans() != nullptr) input.scans = scan_figures(*found->scans(), drives_before(results), false);
   return input;
 }
 

@@ -190,7 +190,7 @@ nlohmann::json to_json(const Results& results) {
   }
   const Calibration* const not_loaded = results.not_loaded();
   json["not_loaded"] = nullptr;  // or why, in a sentence
-  if (not_loaded != nullptr) json["not_loaded"] = judgement_sentence(not_loaded->judgement);
+  if (not_loaded != nullptr) json["not_loaded"] = judgement_sentence(*not_loaded);
   json["robot"] = {{"id", results.journal.robot_id}, {"name", results.journal.robot_name}};
   return json;
 }

@@ -108,10 +108,9 @@ class Session {
       const std::vector<RunSpec> specs = squares_of_phase(plan, phase, squares);
       drive_missing(specs);
       const Calibration found = calibrate_with(specs);
-      if (found.ml() == nullptr)
+      if (!found.absolute())
         throw Error(
-            "a precision can only be driven for by maximum likelihood, and these runs have no ground truth "
-            "along the way",
+            "a precision can only be driven for with ground truth along the way, and these runs have none",
             ExperimentProblem::precision_unknown);
       const calibration::Precision reached = precision_of(found);
       const std::string& name = specs.front().phase;
@@ -135,7 +134,7 @@ class Session {
   void drive_missing(const std::vector<RunSpec>& specs) {
     if (recorded(specs) == specs.size()) return;
     const robot::RemoteParameters parameters = robot::RemoteParameters::fetch(client_);
-    if (is_calibrated_by_ml(specs.front().phase)) require_e(parameters.rows());
+    if (finds_e(specs.front().phase)) require_e(parameters.rows());
     begin_phase(specs.front().phase, loaded_factors(parameters));
     announce(specs);
     std::optional<RunSpec> last;
@@ -148,15 +147,16 @@ class Session {
     }
   }
 
-  /// Whether after this phase factors are found by maximum likelihood, by what is known before it is driven.
-  bool is_calibrated_by_ml(const std::string& phase) const {
+  /// Whether after this phase an e is found, by what is known before it is driven.
+  bool finds_e(const std::string& phase) const {
     using Family = MethodChoice::Family;
     if (phase == phase_names(journal_.plan).back()) return false;
     recording::RunInfo info;
     info.truth_source = truth_.name();
     info.truth_clock = truth_.clock();
     const Family family = journal_.plan.method.family;
-    return family == Family::ml || (family == Family::automatic && has_moving_truth(info));
+    return family == Family::ml || family == Family::scans ||
+           (family == Family::automatic && has_moving_truth(info));
   }
 
   std::size_t recorded(const std::vector<RunSpec>& specs) const {

@@ -11,6 +11,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
+#include "host/experiment/analysis/scanned_runs.hpp"
 #include "host/experiment/files/robot_identity.hpp"
 #include "host/recording/telemetry_sample.hpp"
 #include "host/robot/client/handshake.hpp"
@@ -152,6 +153,15 @@ class Collector {
   robot::Subscription subscription_;
 };
 
+/// What the scans do not show is no reason to lose the drive.
+void place_by_scans(recording::Run& run, const RunHooks& hooks) {
+  try {
+    give_truth_by_scans(run);
+  } catch (const Error& error) {
+    hooks.notice(error.remark());
+  }
+}
+
 }  // namespace
 
 robot::Path path_of(const Plan& plan, const RunSpec& spec) {
@@ -215,6 +225,7 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
   drive.run(path);
   stand();
   collector.finish();
+  if (!run.scans.empty()) place_by_scans(run, hooks);
   return run;
 }
 

@@ -40,7 +40,8 @@ recording::RunInfo info_of(const protocol::HelloReply& robot,
 /// Drives one run from rest to rest, starting at odometry pose 0, and records odometry
 /// and truth. The robot stands still for more than half a second at both ends, so that the poses
 /// there can be averaged. Truth that is measured afterwards is added by complete(). The robot is not armed before
-/// truth comes.
+/// truth comes. Of a laser scanner on the robot truth is where its scans say that the robot was; if they do not tell, that is a
+/// notice, and the run has scans and no truth.
 ///
 /// Throws what robot::DriveSession throws (the robot stands then), and astro::Error if the truth does not come or ends.
 recording::Run record_run(robot::Client& client, truth::Source& truth, const robot::Path& path,

@@ -34,11 +34,12 @@ MethodChoice method_named(const std::string& method, const std::string& angles, 
   MethodChoice choice;
   choice.family = method == kAutomaticName ? Family::automatic
                   : method == kMlName      ? Family::ml
+                  : method == kScanName    ? Family::scans
                                            : Family::end_poses;
   if (choice.family == Family::end_poses)
     choice.options.method = find<Method>(
         method, "method", {Method::umbmark, Method::extended, Method::least_squares, Method::robust},
-        "auto, ml, ");
+        "auto, ml, scan, ");
   choice.options.angles =
       find<AngleSource>(angles, "source of angles",
                         {AngleSource::x, AngleSource::y, AngleSource::thesis, AngleSource::average});
@@ -49,6 +50,7 @@ MethodChoice method_named(const std::string& method, const std::string& angles, 
 std::string_view name_of(const MethodChoice& method) {
   if (method.family == MethodChoice::Family::automatic) return kAutomaticName;
   if (method.family == MethodChoice::Family::ml) return kMlName;
+  if (method.family == MethodChoice::Family::scans) return kScanName;
   return calibration::name_of(method.options.method);
 }
 

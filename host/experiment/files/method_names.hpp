@@ -14,8 +14,9 @@ enum class NameProblem { unknown };
 
 inline constexpr std::string_view kAutomaticName = "auto";
 inline constexpr std::string_view kMlName = "ml";
+inline constexpr std::string_view kScanName = "scan";
 
-/// "auto", "ml", "umbmark", "extended", "least-squares", "robust"; "x", "y", "thesis", "average"; "exact", "published".
+/// "auto", "ml", "scan", "umbmark", "extended", "least-squares", "robust"; "x", "y", "thesis", "average"; "exact", "published".
 /// Throws astro::Error naming the word and what it may be.
 MethodChoice method_named(const std::string& method, const std::string& angles, const std::string& formula);
 

@@ -13,10 +13,10 @@
 /// What an experiment drives, in which order, and the name of each run.
 namespace astro::experiment {
 
-/// How the factors are found. automatic: maximum likelihood if all runs were recorded with ground truth along the
-/// way; otherwise the robust fit of end poses.
+/// How the factors are found. automatic: by the scans if a laser scanner on the robot was recorded in all runs; by maximum likelihood
+/// if all were recorded with ground truth along the way; otherwise by the robust fit of end poses.
 struct MethodChoice {
-  enum class Family { automatic, ml, end_poses };
+  enum class Family { automatic, ml, scans, end_poses };
   Family family = Family::automatic;
   calibration::Options options;  // read by Family::end_poses
 };

@@ -114,7 +114,7 @@ report::DriveFigures figures_of(const calibration::PathErrors& errors) {
 
 report::ReportInput drive_report(const experiment::RunSet& set, const experiment::Calibration& found) {
   report::ReportInput input = outline(set, found, "calibrated", found.factors, found.se);
-  report::DriveComparison comparison{experiment::judgement_sentence(found.judgement), {}, {}, {}};
+  report::DriveComparison comparison{experiment::judgement_sentence(found), {}, {}, {}};
   for (const calibration::HeldOutRun& run : found.judgement.runs)
     comparison.drives.push_back({run.found.name, figures_of(run.in_use), figures_of(run.found)});
   comparison.before = figures_of(found.judgement.in_use());

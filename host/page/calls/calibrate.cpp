@@ -12,10 +12,10 @@
 #include "host/experiment/analysis/export.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
+#include "host/experiment/analysis/scan_figures.hpp"
 #include "host/import/drives/drive_report.hpp"
 #include "host/import/drives/stated_drives.hpp"
 #include "host/import/drives/unused_choice.hpp"
-#include "host/import/scans/scan_result.hpp"
 #include "host/import/scans/scanned_drives.hpp"
 #include "host/page/calls/question.hpp"
 #include "host/page/calls/statements.hpp"
@@ -81,23 +81,31 @@ bool truth_is_scans(const importing::StatedDrives& stated) {
   return scans != 0;
 }
 
+json answer_of(const experiment::Calibration& found, const json& drives, const json& remarks,
+               const fs::path& folder) {
+  experiment::write_calibration(folder / results().toml, found);
+  return {{"calibration", experiment::to_json(found)},
+          {"drives", drives},
+          {"remarks", remarks},
+          {"verdict", experiment::judgement_sentence(found)},
+          {"advises_against", experiment::advises_against(found.judgement.verdict)},
+          {"report", results().report.string()}};
+}
+
 json by_scans(const importing::StatedDrives& stated, const std::string& scan_topic, const fs::path& folder) {
   const std::vector<importing::DriveFiles> files = importing::drive_files(stated);
   importing::refuse_choices_unused_with_scans(stated);
   const importing::ScannedDrives drives =
       importing::scanned_drives(files, importing::choices_of(stated), scan_topic);
-  const lidar::ScanCalibration found =
-      lidar::calibrate_by_scans(drives.drives, drives.loaded, stated.mirrored == "yes");
+  const bool mirrored = stated.mirrored == "yes";
+  const lidar::ScanCalibration by_scans =
+      lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored);
   std::vector<Remark> remarks = drives.remarks;
-  remarks.insert(remarks.end(), found.remarks.begin(), found.remarks.end());
-  experiment::write_parameter_file(folder / results().toml,
-                                   importing::parameter_file_of(found, drives.wheel));
-  return {{"calibration", importing::to_json(found)},
-          {"drives", json::array()},
-          {"remarks", sentences_of(remarks)},
-          {"verdict", importing::verdict_sentence(found)},
-          {"advises_against", experiment::advises_against(importing::verdict_of(found))},
-          {"report", nullptr}};
+  remarks.insert(remarks.end(), by_scans.remarks.begin(), by_scans.remarks.end());
+  experiment::Calibration found = experiment::calibration_of(by_scans);
+  found.wheel = drives.wheel;
+  report::write_report(folder / results().report, experiment::scan_report(found, drives.drives, mirrored));
+  return answer_of(found, json::array(), sentences_of(remarks), folder);
 }
 
 json by_tracker(const importing::StatedDrives& stated, const fs::path& folder, const Emit& emit) {
@@ -106,14 +114,8 @@ json by_tracker(const importing::StatedDrives& stated, const fs::path& folder, c
   emit({{"event", "imported"}, {"drives", drives}});
   const experiment::Calibration found =
       experiment::calibrate(imported.set, {experiment::MethodChoice::Family::ml, {}});
-  experiment::write_calibration(folder / results().toml, found);
   report::write_report(folder / results().report, importing::drive_report(imported.set, found));
-  return {{"calibration", experiment::to_json(found)},
-          {"drives", drives},
-          {"remarks", json::array()},
-          {"verdict", experiment::judgement_sentence(found.judgement)},
-          {"advises_against", experiment::advises_against(found.judgement.verdict)},
-          {"report", results().report.string()}};
+  return answer_of(found, drives, json::array(), folder);
 }
 
 }  // namespace

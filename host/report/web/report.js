@@ -126,6 +126,33 @@
       }), Math.min(line ? 280 : Math.min(width, 520), onPaper() ? heightOnPaper(group, 'path') : Infinity)];
     },
 
+    // Both maps have one scale, so that what is double in one can be looked up in the other.
+    map(data, figure, width) {
+      const { maps } = data.scans, number = Number(figure.map);
+      const spanX = padded(extent(maps.flatMap((map) => map.x)), 0.5), spanY = padded(extent(maps.flatMap((map) => map.y)), 0.5);
+      const traces = [{ type: 'scatter', mode: 'markers', x: maps[number].x, y: maps[number].y, marker: { size: 2.2, color: phaseColour(number), opacity: 0.7 }, hovertemplate: 'x %{x:.2f} m, y %{y:.2f} m<extra></extra>' }];
+      const high = (spanY[1] - spanY[0]) / (spanX[1] - spanX[0]) * (width - 68) + 74;
+      return [traces, layout({ showlegend: false, xaxis: axis('x in m', { range: spanX, constrain: 'domain' }), yaxis: axis('y in m', { range: spanY, constrain: 'domain', scaleanchor: 'x' }) }), Math.max(220, Math.min(high, onPaper() ? 330 : 620))];
+    },
+
+    residuals(data, figure, width) {
+      const { way, residuals } = data.scans;
+      const rows = [['x', 'ahead<br>in mm', 3], ['y', 'to the left<br>in mm', 3], ['h', 'heading<br>in mrad', 1]];
+      const traces = residuals.flatMap((phase, number) => rows.map(([key], row) => ({
+        type: 'scatter', mode: 'markers', name: number ? 'Calibrated factors' : 'Factors before', legendgroup: String(number), showlegend: row === 0,
+        x: way, y: phase[key], yaxis: row ? `y${row + 1}` : 'y', hovertemplate: '%{y:.1f} at %{x:.1f} m',
+        marker: { symbol: phaseMarks[number], size: 4, color: phaseColour(number), opacity: 0.75 },
+      })));
+      // Slips and people give a few that are far off. The scale is that of the others; zooming out shows all.
+      const usual = (values) => values.map(Math.abs).sort((a, b) => a - b)[Math.floor(0.98 * (values.length - 1))] ?? 0;
+      const strips = Object.fromEntries(rows.map(([key, title, least], row) => {
+        const most = Math.max(least, ...residuals.map((phase) => usual(phase[key]))) * 1.15;
+        return [row ? `yaxis${row + 1}` : 'yaxis', axis(title, { range: [-most, most], domain: [(2 - row) * 0.35, (2 - row) * 0.35 + 0.3], nticks: 5 })];
+      }));
+      const legend = { orientation: 'h', x: 0, y: 1.01, xanchor: 'left', yanchor: 'bottom', itemwidth: 40 };
+      return [traces, layout({ ...strips, legend, xaxis: axis('way in m', { anchor: 'y3', rangemode: 'tozero' }), margin: { l: 64, r: 12, t: 34, b: 44 } }), onPaper() ? 430 : width < 500 ? 470 : 540];
+    },
+
     errors(data, figure, width) {
       const group = data.groups[figure.group];
       const rows = [['ex', 'x error<br>in mm', '.1f', 1], ['ey', 'y error<br>in mm', '.1f', 1], ['eh', 'heading error<br>in rad', '.4f', 0.002]];

@@ -27,6 +27,21 @@ class CameraTruth : public truth::Source {
   std::function<std::vector<recording::TruthSample>()> take_;
 };
 
+/// The laser scanner of a robot of this process.
+class ScannerTruth : public truth::Source {
+ public:
+  /// Precondition: the robot has a scanner.
+  explicit ScannerTruth(std::shared_ptr<VirtualRobot> robot) : robot_(std::move(robot)) {}
+
+  std::vector<recording::TruthSample> poll() override { return {}; }
+  std::vector<lidar::Scan> take_scans() override { return robot_->scanner()->take_scans(); }
+  std::string name() const override { return "lidar"; }
+  std::string clock() const override { return "robot"; }
+
+ private:
+  std::shared_ptr<VirtualRobot> robot_;
+};
+
 /// A link to a simulated robot in the same process. Virtual time passes only while the host waits for a byte,
 /// so a whole experiment runs as fast as it computes, and always in the same way.
 class InProcessTransport : public robot::Transport {

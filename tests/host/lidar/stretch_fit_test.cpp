@@ -11,7 +11,7 @@
 namespace astro::lidar {
 namespace {
 
-constexpr Freedom kAllFree{true, true, true, true, true, true, true};
+constexpr Freedom kAllFree{true, true, true, true, true, true, true, true};
 
 /// Stretches of arcs, of which the scans say what another robot would have driven, and `scatter` besides.
 std::vector<Stretch> arcs(std::size_t count, double scatter, std::uint64_t seed) {
@@ -21,7 +21,8 @@ std::vector<Stretch> arcs(std::size_t count, double scatter, std::uint64_t seed)
   for (Stretch& one : all) {
     const double along_m = 0.5, across_m = 0.1 * normal(random);
     one.steps = {{along_m - across_m, along_m + across_m}};
-    one.scanner = {predicted(one, nothing_wrong(), kLoaded), 1e-4 * Eigen::Matrix3d::Identity(), false};
+    one.scanner = {predicted(one, nothing_wrong(kLoaded), kLoaded), 1e-4 * Eigen::Matrix3d::Identity(),
+                   false};
     for (double* value : {&one.scanner->motion.x_m, &one.scanner->motion.y_m, &one.scanner->motion.theta_rad})
       *value += scatter * normal(random);
   }
@@ -31,7 +32,7 @@ std::vector<Stretch> arcs(std::size_t count, double scatter, std::uint64_t seed)
 TEST(StretchFit, SaysWhereItsStretchesWereLinearisedEvenIfItDoesNotConverge) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const std::vector<Stretch> stretches = arcs(5, 3, seed);
-    const IteratedFit all = iterated_fit(stretches, nothing_wrong(), kAllFree, kLoaded);
+    const IteratedFit all = iterated_fit(stretches, nothing_wrong(kLoaded), kAllFree, kLoaded);
     const std::vector<LinearStretch> there = linearised(stretches, all.at, kLoaded);
     for (std::size_t i = 0; i < there.size(); ++i)
       EXPECT_EQ(there[i].residual, all.stretches[i].residual) << seed;
@@ -40,10 +41,10 @@ TEST(StretchFit, SaysWhereItsStretchesWereLinearisedEvenIfItDoesNotConverge) {
 
 TEST(FactorChoice, OfGainsThatAreNoNumbersIsNone) {
   const std::vector<Stretch> stretches = arcs(200, 0.01, 1);
-  std::vector<LinearStretch> linear = linearised(stretches, nothing_wrong(), kLoaded);
+  std::vector<LinearStretch> linear = linearised(stretches, nothing_wrong(kLoaded), kLoaded);
   for (LinearStretch& one : linear) one.residual.setConstant(std::numeric_limits<double>::quiet_NaN());
   const FactorChoice choice =
-      choose_factors(stretches, linear, nothing_wrong(), nothing_wrong(), false, kLoaded);
+      choose_factors(stretches, linear, nothing_wrong(kLoaded), nothing_wrong(kLoaded), false, kLoaded);
   EXPECT_EQ(choice.set.name, "");
   EXPECT_TRUE(can_be_judged(choice));
   EXPECT_FALSE(choice.better());

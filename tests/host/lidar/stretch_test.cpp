@@ -25,13 +25,13 @@ TEST(Stretch, OfTheLoadedFactorsIsTheWayDriven) {
   const SyntheticDrive drive = curved_drive();
   const Stretch stretch = cut_stretch(drive.recorded().wheels, kLoaded, 0, 3, 0);
   // Steps of 10 ms are put together to arcs of up to 0.02 rad, of which only those where the legs meet are no arcs.
-  expect_same(predicted(stretch, nothing_wrong(), kLoaded), drive.pose(), 1e-4);
+  expect_same(predicted(stretch, nothing_wrong(kLoaded), kLoaded), drive.pose(), 1e-4);
 }
 
 TEST(Stretch, IsSeenFromTheScanner) {
   const SyntheticDrive drive = curved_drive();
   const Stretch stretch = cut_stretch(drive.recorded().wheels, kLoaded, 0, 3, 0);
-  Unknowns unknowns = nothing_wrong();
+  Unknowns unknowns = nothing_wrong(kLoaded);
   unknowns(kLeverX) = 0.2;
   unknowns(kLeverY) = -0.1;
   unknowns(kLeverYaw) = 3;
@@ -43,13 +43,13 @@ TEST(Stretch, ThatIsCutLaterIsAsOneWithALateClock) {
   const std::vector<calibration::WheelSample> wheels = curved_drive().recorded().wheels;
   const Stretch early = cut_stretch(wheels, kLoaded, 0.5, 2.5, 0),
                 late = cut_stretch(wheels, kLoaded, 0.5, 2.5, 0.05);
-  Unknowns unknowns = nothing_wrong();
+  Unknowns unknowns = nothing_wrong(kLoaded);
   unknowns(kLate) = 0.05;
   expect_same(predicted(early, unknowns, kLoaded), predicted(late, unknowns, kLoaded), 1e-4);
 }
 
 TEST(Stretch, UnknownsAreScaleTurnsAndBend) {
-  Unknowns unknowns = nothing_wrong();
+  Unknowns unknowns = nothing_wrong(kLoaded);
   unknowns(kScale) = 1.01;
   unknowns(kTurn) = 0.97;
   unknowns(kBend) = 0.02;

@@ -44,7 +44,8 @@ TEST(Surface, HasOnlyPointsThatAreSomewhere) {
   scan.beam_interval_s = 1e-3;
   scan.range_max_m = 10;
   scan.ranges_m.assign(100, 2);
-  EXPECT_EQ(surface_of(scan, {std::numeric_limits<double>::infinity(), 0, 0}).size(), 1u);  // the first beam
+  const Twist2 way{std::numeric_limits<double>::infinity(), 0, 0};
+  EXPECT_EQ(surface_of(scan, {&way, 1}).size(), 1u);  // the first beam
 }
 
 TEST(Surface, HasNoNormalWhereTheWallBends) {
@@ -77,7 +78,8 @@ TEST(Surface, OfAScannerThatTurnsWhileItDrivesIsAsIfItHadStood) {
   SyntheticDrive drive(furnished_room(), {{1, 1, kNominalBase_m}, 0}, scanner, 1);
   drive.drive({0.5, 1.2, 1});
   std::mt19937_64 random(1);
-  const std::vector<SurfacePoint> moved = surface_of(drive.scan_at(0, random), {0.5, 0, 1.2});
+  const Twist2 way{0.5 * scanner.period_s, 0, 1.2 * scanner.period_s};
+  const std::vector<SurfacePoint> moved = surface_of(drive.scan_at(0, random), {&way, 1});
   scanner.spins = false;
   Scan still = SyntheticDrive(furnished_room(), {{1, 1, kNominalBase_m}, 0}, scanner, 1).scan_at(0, random);
   // Each point lies on a wall of the room, seen from where the scan began.

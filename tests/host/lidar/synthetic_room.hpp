@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -37,6 +38,18 @@ inline Room furnished_room() {
 /// Two parallel walls without ends in sight.
 inline Room corridor() { return {{{-500, -1.2}, {500, -1.2}}, {{500, 1.2}, {-500, 1.2}}}; }
 
+/// Distance to the nearest point of a wall.
+inline double off_walls_m(const Room& room, const Point2& point) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : room) {
+    const double dx = wall.to.x_m - wall.from.x_m, dy = wall.to.y_m - wall.from.y_m,
+                 px = point.x_m - wall.from.x_m, py = point.y_m - wall.from.y_m;
+    const double part = std::clamp((px * dx + py * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    nearest_m = std::min(nearest_m, std::hypot(px - part * dx, py - part * dy));
+  }
+  return nearest_m;
+}
+
 /// Distance to the nearest wall along a ray; infinite if there is none.
 inline double distance_m(const Room& room, const Pose2& ray) {
   const double c = std::cos(ray.theta_rad), s = std::sin(ray.theta_rad);
@@ -56,6 +69,7 @@ struct Scanner {
   int beams = 360;
   double view_rad = 2 * std::numbers::pi;
   double noise_m = 0.01, lost = 0.02;
+  double noise_of_range = 0;  // standard deviation over the range, beside noise_m
   double period_s = 0.2;
   bool spins = false;     // its beams are spread over the period
   bool mirrored = false;  // its scans say that the beams run the other way round
@@ -87,8 +101,9 @@ class SyntheticDrive {
     const double right_m = kStep_s * (leg.v_mps + leg.omega_radps * kNominalBase_m / 2),
                  left_m = kStep_s * (leg.v_mps - leg.omega_radps * kNominalBase_m / 2);
     for (int step = static_cast<int>(std::lround(leg.lasts_s / kStep_s)); step > 0; --step) {
-      calibration::advance(pose_, robot_.actual.c_r * right_m + slip(right_m),
-                           robot_.actual.c_l * left_m + slip(left_m), robot_.actual.b_m);
+      const double right_true_m = robot_.actual.c_r * right_m, left_true_m = robot_.actual.c_l * left_m;
+      calibration::advance(pose_, right_true_m + slip(right_m), left_true_m + slip(left_m),
+                           calibration::effective_wheelbase_m(right_true_m, left_true_m, robot_.actual));
       left_m_ += left_m;
       right_m_ += right_m;
       note();
@@ -123,7 +138,9 @@ class SyntheticDrive {
     for (int beam = 0; beam < scanner_.beams; ++beam) {
       Pose2 ray = pose_at(time_s + beam * scan.beam_interval_s) * scanner_.place;
       ray.theta_rad += -scanner_.view_rad / 2 + beam * step_rad;
-      const double range_m = distance_m(room_, ray) + scanner_.noise_m * normal(random);
+      const double distance = distance_m(room_, ray),
+                   range_m = distance +
+                             std::max(scanner_.noise_m, scanner_.noise_of_range * distance) * normal(random);
       scan.ranges_m.push_back(static_cast<float>(
           uniform(random) < scanner_.lost ? std::numeric_limits<double>::quiet_NaN() : range_m));
     }

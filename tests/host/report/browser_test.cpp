@@ -45,6 +45,35 @@ TEST_F(ReportInBrowser, DrawsEveryTraceOfEveryFigure) {
   EXPECT_THAT(dom, HasSubstr("<p id=\"problem\" role=\"alert\" hidden"));
 }
 
+TEST_F(ReportInBrowser, DrawsTheWallsTwiceAndTheResidualsOfBothSetsOfFactors) {
+  ReportInput input = thesis_input();
+  ScanFigures& scans = input.scans.emplace();
+  scans.drive = "before: square <cw> 1";
+  for (int i = 0; i < 100; ++i) {
+    scans.before.push_back({0.05 * i, 2 + 0.002 * i});
+    scans.after.push_back({0.05 * i, 2});
+    scans.residuals.push_back({0.4 * i, {0.002, -0.001, 0.004}, {0.0001, 0, 0.0002}});
+  }
+  const std::string dom = open_in_browser(render_html(input));
+  int maps = 0, residuals = 0;
+  for (const auto& f : figures_of(dom)) {
+    SCOPED_TRACE(f.kind);
+    EXPECT_TRUE(f.drawn);
+    EXPECT_FALSE(f.failed);
+    if (f.kind == "map") {
+      ++maps;
+      EXPECT_EQ(f.traces, 1);
+    }
+    if (f.kind == "residuals") {
+      ++residuals;
+      EXPECT_EQ(f.traces, 6) << "ahead, to the left and heading, with both sets";
+    }
+  }
+  EXPECT_EQ(maps, 2);
+  EXPECT_EQ(residuals, 1);
+  EXPECT_THAT(dom, HasSubstr("square &lt;cw&gt; 1"));
+}
+
 TEST_F(ReportInBrowser, ShowsTheRunThatItsSelectorAsksFor) {
   const std::string choose_all = R"(
     const wait = setInterval(() => {

@@ -6,9 +6,11 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "host/base/pose2.hpp"
 #include "host/recording/run_file.hpp"
+#include "tests/support/base/json.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/programs/program.hpp"
 
@@ -101,6 +103,48 @@ TEST_F(RobotInARoom, HasScansInItsRecordingWhichFitTheWallsAlongTheDrive) {
   std::printf("  median %.4f m, 90 %% below %.4f m\n", misses_m[misses_m.size() / 2],
               misses_m[misses_m.size() * 9 / 10]);
   EXPECT_LT(misses_m[misses_m.size() / 2], 0.1);
+}
+
+/// Eight scans of a busy machine are worth little, so the wheels are far off and the result is loaded whatever it is worth.
+TEST_F(RobotInARoom, IsCalibratedByItsScannerAloneFromTheFirstSquareToTheReport) {
+  PatientSimulator simulator({"--room", room(), "--true-ed", "1.03", "--true-wheelbase", "0.28"});
+  const fs::path out = folder_.path() / "experiment";
+  const std::vector<std::string> words{ASTROLABE_PROGRAM,
+                                       "umbmark",
+                                       "--port",
+                                       simulator.port(),
+                                       "--truth",
+                                       "lidar:" + simulator.port() + ".lidar",
+                                       "--truth-mirrored",
+                                       "--runs",
+                                       "1",
+                                       "--side",
+                                       "0.8",
+                                       "--speed",
+                                       "0.4",
+                                       "--yaw-rate",
+                                       "1.5",
+                                       "--no-extras",
+                                       "--out",
+                                       out.string(),
+                                       "--yes",
+                                       "--force",
+                                       "--json"};
+  support::Program umbmark(words);
+  ASSERT_EQ(umbmark.wait(), 0) << umbmark.err();
+  EXPECT_THAT(umbmark.err(), HasSubstr("laser scanner: RPLIDAR A1M8"));
+  const nlohmann::json json = support::parse_json(umbmark.out());
+  EXPECT_EQ(json["phases"][0]["estimate"]["method"], "scan");
+  EXPECT_GT(json["before"]["E_max_syst_m"].get<double>(), 0.02);
+  EXPECT_TRUE(json["after"]["E_max_syst_m"].is_number());
+  EXPECT_NEAR(json["parameters"]["new"]["b_m"].get<double>(), 0.28, 0.01) << "it was 0.29";
+  std::ifstream file(out / "report.html");
+  const std::string html{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(html, HasSubstr("The walls, by odometry"));
+  const support::Outcome again = astrolabe({"calibrate", "runs", (out / "before").string(), "--json",
+                                            "--report", (folder_.path() / "again.html").string()});
+  EXPECT_EQ(support::parse_json(again.out)["b_m"], json["phases"][0]["estimate"]["b_m"]);
+  EXPECT_TRUE(fs::exists(folder_.path() / "again.html"));
 }
 
 TEST_F(RobotInARoom, WhoseScannerIsUnpluggedEndsARecordingWithASentence) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/lidar/scanned_drive.hpp"
+#include "host/recording/run.hpp"
+
+/// Recordings with the scans of a laser scanner on the robot, as host/lidar takes them.
+namespace astro::experiment {
+
+/// The run must outlive it. Throws astro::Error as trajectory_of does.
+lidar::ScannedDrive scanned_drive(const recording::Run& run, const std::string& name);
+
+/// Replaces the truth by where the scans say that the robot's middle was, seen from where it was at the first scan. Samples where the
+/// walls do not show it are not valid. Throws as scanned_drive and lidar::path_by_scans do; `run` is unchanged then.
+void give_truth_by_scans(recording::Run& run);
+
+}  // namespace astro::experiment
