@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@
 #include "host/console/wrong_usage.hpp"
 #include "host/import/drives/file_inspection.hpp"
 #include "host/import/drives/inspection_json.hpp"
+#include "host/import/scans/bag_scans.hpp"
+#include "host/import/scans/carmen_log.hpp"
 #include "host/import/wheels/unclear_choice.hpp"
 
 namespace astro::commands {
@@ -147,6 +150,8 @@ std::string bag_text(const BagInspection& bag) {
                 (bag.wheels ? "; wheels: " + bag.wheels->left + " (left), " + bag.wheels->right + " (right)."
                             : "; which are the wheels, the names do not tell."));
   }
+  if (const std::vector<std::string> scans = importing::scan_topics(bag.report.topics); !scans.empty())
+    text += '\n' + wrapped("Scans of a laser scanner: " + importing::listed(scans) + '.');
   text += sources_text(bag);
   for (const Remark& warning : bag.report.warnings) text += wrapped(in_words(warning));
   return text;
@@ -195,6 +200,17 @@ std::string end_poses_text(const calibration::EndPoseTable& table) {
   return "End-pose errors of closed runs:\n" + console::table(rows, "rrrrrr");
 }
 
+/// The wheelbase matters to neither the count nor the way.
+std::string log_text(const std::filesystem::path& path) {
+  const importing::CarmenLog log = importing::read_carmen_log(path, 1);
+  std::string text = wrapped(
+      fmt::format("Log of CARMEN: {} scans and {} lines of odometry, {:.0f} m and {:.0f} turns; {}.",
+                  log.scans, log.odometry, log.way_m, log.turned_rad / (2 * std::numbers::pi),
+                  log.corrected ? "a mapping program has corrected its poses" : "its poses are odometry"));
+  if (log.damaged > 0) text += fmt::format("{} lines are damaged.\n", log.damaged);
+  return text;
+}
+
 /// What is in a file, as text of at most 120 columns.
 std::string inspection_text(const FileInspection& found) {
   if (found.bag) return bag_text(*found.bag);
@@ -224,7 +240,8 @@ void add_inspect(console::Command app) {
   add_json_flag(command, options->json);
   command.footer(
       "Recognised by content: Motive CSV, Vicon CSV, TUM, EuRoC, CSV with names and units (also packed with\n"
-      "gzip); bags (.bag, .mcap, .db3, folders); tables of wheels. By the end of its name: sizes of a robot "
+      "gzip); bags (.bag, .mcap, .db3, folders); logs of CARMEN; tables of wheels. By the end of its name: "
+      "sizes of a robot "
       "(.toml, .yaml).\n"
       "Examples:\n"
       "  astrolabe inspect take.csv\n"
@@ -234,6 +251,15 @@ void add_inspect(console::Command app) {
     ImportOptions& choices = options->choices;
     choices.wheels = choices.truth = {options->file};
     refuse_unused_choices(choices);
+    if (std::filesystem::is_regular_file(options->file) && importing::is_carmen_log(options->file)) {
+      const std::string next = command_for_log(options->file);
+      if (options->json)
+        print_json(nlohmann::json{{"kind", "carmen"}, {"command", next}});
+      else
+        write(log_text(options->file) + "\nTo calibrate with it (capitals: what it does not show):\n  " +
+              next + '\n');
+      return;
+    }
     const importing::FileInspection found =
         importing::inspect_file(options->file, choices.table,
                                 {.columns = choices.truth_columns, .poses = {choices.truth_topic, "", ""}});

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <vector>
+
+#include "host/import/scans/bag_scans.hpp"
 
 namespace astro::commands {
 namespace {
@@ -68,11 +71,14 @@ std::optional<WheelUnit> unit_of(const BagInspection& bag) {
 std::string of_bag(const std::string& file, const BagInspection& bag) {
   if (bag.run) return "runs " + file;
   const bool any_truth = bag.truth || !std::ranges::all_of(bag.poses, importing::is_estimate);
+  const std::vector<std::string> scans = importing::scan_topics(bag.report.topics);
   const std::string topic = !any_truth  ? ""
                             : bag.truth ? option("--truth-topic", bag.truth->topic)
                                         : " --truth-topic TOPIC";
   const std::string wheels = of_bag_wheels(bag), robot = sizes(unit_of(bag));
   if (!bag.sources.empty() && any_truth) return "bag " + file + wheels + topic + robot;
+  if (!bag.sources.empty() && !scans.empty())
+    return "bag " + file + wheels + (scans.size() > 1 ? " --scan-topic TOPIC" : "") + robot;
   if (!bag.sources.empty()) return "files --wheels " + file + wheels + " --truth TRUTH" + robot;
   return any_truth ? "files --wheels WHEELS --truth " + file + topic + robot : "";
 }
@@ -96,6 +102,11 @@ std::string next_command(const std::filesystem::path& path, const FileInspection
                          const ImportOptions& choices) {
   const std::string words = arguments(word(path.string()), found, choices);
   return words.empty() ? "" : "astrolabe calibrate " + words;
+}
+
+std::string command_for_log(const std::filesystem::path& path) {
+  const std::string file = word(path.string());
+  return "astrolabe calibrate files --wheels " + file + " --truth scan:" + file + " --wheelbase METRES";
 }
 
 }  // namespace astro::commands

@@ -14,4 +14,7 @@ namespace astro::commands {
 std::string next_command(const std::filesystem::path& path, const importing::FileInspection& found,
                          const ImportOptions& choices);
 
+/// The same of a log of CARMEN.
+std::string command_for_log(const std::filesystem::path& path);
+
 }  // namespace astro::commands
