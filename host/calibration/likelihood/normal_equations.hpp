@@ -7,6 +7,7 @@
 
 #include "host/base/elimination.hpp"
 #include "host/calibration/likelihood/innovation.hpp"
+#include "host/calibration/motion/spread_of_e.hpp"
 
 /// The Gauss-Newton step of several runs that share some unknowns and have others of their own.
 namespace astro::calibration {
@@ -25,11 +26,9 @@ struct FixedParameters {
   bool lever_yaw = false;  // no headings anywhere
 };
 
-/// What is known of e before any drive: 0 +- 0.02. Two real robots have 0.015 and 0.031, rigid narrow wheels have 0; the root mean
-/// square of the three is 0.02. The mean is 0 and not among them, so that drives which do not show e leave it at 0, and none
-/// comes out further from 0 than its drives say.
+/// What is known of e before any drive (spread_of_e.hpp), as one more measurement of it.
 struct PriorOfE {
-  static constexpr double kStandardDeviation = 0.02;
+  static constexpr double kStandardDeviation = kSpreadOfE;
 
   double e = 0;  // where the search is
   /// The errors of the estimate are widened in the end (MlEstimate::widening), and what is known beforehand is not known less

@@ -13,7 +13,6 @@
 #include "host/calibration/judgement/end_pose_validation.hpp"
 #include "host/calibration/judgement/remarks.hpp"
 #include "host/calibration/likelihood/noise_of_ends.hpp"
-#include "host/calibration/motion/spread_of_e.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
 #include "host/experiment/analysis/scan_sentences.hpp"
 #include "host/experiment/analysis/scanned_runs.hpp"
@@ -197,9 +196,6 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
   result.detail = std::move(ml);
   return result;
 }
-
-static_assert(calibration::PriorOfE::kStandardDeviation == calibration::kSpreadOfE,
-              "e is known alike beforehand, whatever the method");
 
 Calibration by_scans(Phases phases) {
   const Recordings& first = *phases.front();

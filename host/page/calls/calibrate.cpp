@@ -98,8 +98,7 @@ json by_scans(const importing::StatedDrives& stated, const std::string& scan_top
   const importing::ScannedDrives drives =
       importing::scanned_drives(files, importing::choices_of(stated), scan_topic);
   const bool mirrored = stated.mirrored == "yes";
-  const lidar::ScanCalibration by_scans =
-      lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored);
+  const lidar::ScanCalibration by_scans = lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored);
   std::vector<Remark> remarks = drives.remarks;
   remarks.insert(remarks.end(), by_scans.remarks.begin(), by_scans.remarks.end());
   experiment::Calibration found = experiment::calibration_of(by_scans);
@@ -125,7 +124,7 @@ json calibrate(const json& question, const fs::path& folder, const Emit& emit) {
   if (stated.wheels.empty()) throw Error("there are no drives: give files of wheels and of ground truth");
   fs::create_directories(folder / results().in);
   json answer = truth_is_scans(stated) ? by_scans(stated, text_in(question, kScanTopic), folder)
-                                             : by_tracker(stated, folder, emit);
+                                       : by_tracker(stated, folder, emit);
   answer["toml"] = results().toml.string();
   answer.update(export_ros2(folder));
   return answer;

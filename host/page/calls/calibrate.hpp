@@ -15,7 +15,7 @@ namespace astro::page {
 /// answer    {"calibration": what `calibrate --json` prints, "drives": as above, "remarks": on all drives together,
 ///            "verdict": a sentence,
 ///            "advises_against": whether the drives are against loading the factors,
-///            "toml": a file, "report": a file, or null with scans; "ros2": a file for diff_drive_controller, or null,
+///            "toml", "report": files; "ros2": a file for diff_drive_controller, or null,
 ///            "not_in_ros2": what that file cannot express, or why there is none; otherwise null}
 ///
 /// Throws astro::Error if only some drives have scans; and what importing::import_stated, importing::scanned_drives,
