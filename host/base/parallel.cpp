@@ -29,7 +29,10 @@ class Pool {
 
   void serve() {
     const bool before = std::exchange(does_a_piece, true);
-    for (int i = next_++; i < count_ && !stopped_; i = next_++) {
+    // A number that was taken is done, so that of several failures the lowest is always among those that were seen.
+    while (!stopped_) {
+      const int i = next_++;
+      if (i >= count_) break;
       try {
         work_(i);
         ++done_;

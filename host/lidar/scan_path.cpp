@@ -40,11 +40,11 @@ class Follower {
     const double time_s = drive_.seconds(scan), on_wheels_s = time_s - at_(kLate);
     if (!(on_wheels_s >= drive_.wheels.front().time_s && on_wheels_s <= drive_.wheels.back().time_s)) return;
     std::vector<SurfacePoint> points = driven_surface(drive_, scan, loaded_, at_, false);
-    if (first_) {
+    if (!poses_.empty()) {
       const Stretch since = cut_stretch(drive_.wheels, loaded_, last_s_, time_s, at_(kLate));
       scanner_ = scanner_ * predicted(since, at_, loaded_);
     }
-    const std::optional<Pose2> found = first_ ? placed(points) : Pose2{};
+    const std::optional<Pose2> found = first_ ? placed(points) : anchored(points);
     if (found) scanner_ = *found;
     last_s_ = time_s;
     poses_.push_back({on_wheels_s, scanner_, found.has_value()});
@@ -75,8 +75,15 @@ class Follower {
     if (const auto found = on(*first_, points, kHalf)) return found;
     return on(near_ ? *near_ : *first_, points, 0);
   }
+  /// Where the wheels say, if the scan shows so much that others can be matched with it.
+  std::optional<Pose2> anchored(const std::vector<SurfacePoint>& points) const {
+    const auto match = trusted_match(NearestPoints(points), points, {});
+    if (!match || match->degenerate()) return std::nullopt;
+    return scanner_;
+  }
   void remember(std::vector<SurfacePoint> points, bool known) {
     if (!first_) {
+      if (!known) return;
       first_ = Place{scanner_, NearestPoints(std::move(points))};
       return;
     }

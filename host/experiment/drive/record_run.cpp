@@ -162,6 +162,25 @@ void place_by_scans(recording::Run& run, const RunHooks& hooks) {
   }
 }
 
+/// From rest to rest; the robot is disarmed at the end.
+void drive_recorded(robot::Client& client, truth::Source& truth, const robot::Path& path,
+                    const robot::DriveHooks& drive_hooks, const RunHooks& hooks, recording::Run& run) {
+  robot::DriveSession drive(client, drive_hooks);
+  client.request(protocol::SetPose{});
+  const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
+                        [&](const auto& sample) { run.truth.push_back(sample); },
+                        [&](const auto& scan) { run.scans.push_back(scan); }};
+  Collector collector(client, truth, sink, hooks.moved);
+  const auto stand = [&] {
+    collector.stand(kRest, hooks.interrupted);
+    drive.pump(0us);  // throws if it was interrupted, or if the robot found a fault
+  };
+  stand();
+  drive.run(path);
+  stand();
+  collector.finish();
+}
+
 }  // namespace
 
 robot::Path path_of(const Plan& plan, const RunSpec& spec) {
@@ -211,20 +230,8 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
   drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.segment_done(done.tag); };
 
   truth.begin_run();
-  robot::DriveSession drive(client, drive_hooks);
-  client.request(protocol::SetPose{});
-  const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
-                        [&](const auto& sample) { run.truth.push_back(sample); },
-                        [&](const auto& scan) { run.scans.push_back(scan); }};
-  Collector collector(client, truth, sink, hooks.moved);
-  const auto stand = [&] {
-    collector.stand(kRest, hooks.interrupted);
-    drive.pump(0us);  // throws if it was interrupted, or if the robot found a fault
-  };
-  stand();
-  drive.run(path);
-  stand();
-  collector.finish();
+  drive_recorded(client, truth, path, drive_hooks, hooks, run);
+  // The robot is disarmed by now: nobody would look after it while the scans are matched.
   if (!run.scans.empty()) place_by_scans(run, hooks);
   return run;
 }

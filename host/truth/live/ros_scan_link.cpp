@@ -23,6 +23,7 @@ using std::chrono::milliseconds;
 constexpr dds::Qos kScansAsTheyCome{false, false, 100};
 constexpr std::int64_t kClockListening_us =
     700'000;  // to choose between the two times, and to see the shortest delay
+constexpr std::int64_t kTakeOver_us = 2'000'000;
 constexpr std::size_t kMostScansHeld = 1024;
 constexpr microseconds kTopicLook = milliseconds(50), kLongestTopicLook = milliseconds(2000);
 
@@ -65,12 +66,23 @@ std::vector<lidar::Scan> RosScanLink::poll(microseconds timeout) {
   std::vector<lidar::Scan> scans;
   for (Heard& heard : std::exchange(held_, {})) {
     heard.scan.time_ns = 1000 * (clock_->host_time_us(heard.stamp) - std::llround(lasts_us(heard.scan)));
+    if (heard.scan.time_ns <= last_ns_) continue;
+    last_ns_ = heard.scan.time_ns;
     scans.push_back(std::move(heard.scan));
   }
   return scans;
 }
 
+/// Two scanners on one topic would be taken for one that leaps. The other is heard once the first has been silent.
+bool RosScanLink::is_from_publisher(const dds::Sample& sample, std::int64_t now_us) {
+  if (publisher_ && *publisher_ != sample.id.writer && now_us - heard_us_ < kTakeOver_us) return false;
+  publisher_ = sample.id.writer;
+  heard_us_ = now_us;
+  return true;
+}
+
 void RosScanLink::take(const dds::Sample& sample, std::int64_t now_us) {
+  if (!is_from_publisher(sample, now_us)) return;
   std::optional<LaserScan> message = ros2::decode<LaserScan>(sample.payload);
   std::optional<lidar::Scan> scan = message ? scan_in(std::move(*message)) : std::nullopt;
   if (!scan) return;

@@ -35,6 +35,7 @@ class RosScanLink : public ScanLink {
     lidar::Scan scan;
   };
 
+  bool is_from_publisher(const dds::Sample& sample, std::int64_t now_us);
   void take(const dds::Sample& sample, std::int64_t now_us);
 
   std::string topic_;
@@ -42,6 +43,9 @@ class RosScanLink : public ScanLink {
   std::unique_ptr<dds::Reader> reader_;
   std::optional<TrackerClock> clock_;
   std::vector<Heard> held_;  // until the clock is known
+  std::optional<dds::Guid> publisher_;
+  std::int64_t heard_us_ = 0;  // from it, on this computer's clock
+  std::int64_t last_ns_ = 0;   // of the scans that were given
 };
 
 /// Whether a topic of ROS 2 carries scans. Waits up to two seconds for somebody who publishes it. Throws as RosScanLink.

@@ -103,10 +103,16 @@ void SampleClock::arrived(std::int64_t count, std::chrono::microseconds at) {
   if (!arrivals_.empty() && arrivals_.back().count == count) return;
   const Arrival last{count, static_cast<double>(at.count())};
   const auto begun_us = [&](const Arrival& arrival) {
-    return arrival.time_us - 1e6 * nominal_s_ * static_cast<double>(arrival.count);
+    return arrival.time_us - 1e6 * period_s_ * static_cast<double>(arrival.count);
   };
-  // What had waited while the computer looked elsewhere tells nothing of the rate.
-  while (!arrivals_.empty() && begun_us(arrivals_.front()) > begun_us(last) + kBacklog_us)
+  // What had waited while the computer looked elsewhere tells nothing of the rate. Until the rate was measured, the scanner may be
+  // as much faster than it says as is believed of any.
+  const auto slack_us = [&](const Arrival& arrival) {
+    return kBacklog_us +
+           (measured_ ? 0
+                      : 1e6 * kFarFromNominal * nominal_s_ * static_cast<double>(last.count - arrival.count));
+  };
+  while (!arrivals_.empty() && begun_us(arrivals_.front()) > begun_us(last) + slack_us(arrivals_.front()))
     arrivals_.pop_front();
   arrivals_.push_back(last);
   while (arrivals_.size() > kMostArrivals ||
@@ -131,7 +137,8 @@ void SampleClock::update() {
       n += 1, count += x, time += y, square += x * x, product += x * y;
     }
     const double slope_s = 1e-6 * (n * product - count * time) / (n * square - count * count);
-    period_s_ = std::abs(slope_s - nominal_s_) <= kFarFromNominal * nominal_s_ ? slope_s : nominal_s_;
+    measured_ = std::abs(slope_s - nominal_s_) <= kFarFromNominal * nominal_s_;
+    period_s_ = measured_ ? slope_s : nominal_s_;
   }
   start_us_ = std::numeric_limits<double>::infinity();
   for (const Arrival& arrival : arrivals_)
@@ -160,7 +167,7 @@ void TurnAssembler::add(const std::vector<Node>& nodes, std::int64_t received, s
     turn_.push_back(node);
   }
   if (lost) clock_.arrived(received, at);
-  if (clock_.settled()) stamp_turns();
+  if (!ended_.empty() && clock_.settled()) stamp_turns();
 }
 
 void TurnAssembler::finish_turn() {

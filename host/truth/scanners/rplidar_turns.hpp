@@ -47,6 +47,7 @@ class SampleClock {
   };
 
   double nominal_s_, period_s_;
+  bool measured_ = false;  // the period, by arrivals
   double start_us_ = 0;
   std::deque<Arrival> arrivals_;
 };

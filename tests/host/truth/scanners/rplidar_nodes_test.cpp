@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 #include <vector>
+
+#include "host/truth/scanners/rplidar_turns.hpp"
 
 namespace astro::truth::rplidar {
 namespace {
@@ -145,6 +149,20 @@ TEST(RplidarCapsules, SpreadTheirAnglesUpToTheNextOneAndTakeTheCompensationOff) 
 TEST(RplidarNodes5, HaveTheBytesOfTheMakersNotes) {
   // Quality 47 and the start flag; 90 degrees are 5760 sixty-fourths, beside the constant bit; 1 m is 4000 quarters of a mm.
   EXPECT_EQ(node_bytes({90 * kDegree, 1, 0, true}), (Bytes{0xBD, 0x01, 0x2D, 0xA0, 0x0F}));
+}
+
+TEST(SampleClock, FindsTheRateOfAScannerThatIsFasterOrSlowerThanItSays) {
+  constexpr double kSaid_s = 500e-6;
+  for (const double ratio : {0.8, 0.88, 1.0, 1.12, 1.2}) {
+    SampleClock clock(kSaid_s);
+    for (int ms = 1; ms <= 3000; ++ms) {
+      const auto count = static_cast<std::int64_t>(1e-3 * ms / (ratio * kSaid_s));
+      clock.arrived(count, std::chrono::milliseconds(ms));
+      if (ms % 180 == 0 && clock.settled()) clock.update();  // about once a turn
+    }
+    EXPECT_TRUE(clock.settled()) << ratio;
+    EXPECT_NEAR(clock.period_s(), ratio * kSaid_s, 1e-7) << "within a count of one in thousands";
+  }
 }
 
 }  // namespace
