@@ -82,7 +82,7 @@ Judged judged(const std::string& name) {
   const CarmenLog first = read(halves[0]);
   const lidar::ScanCalibration found = lidar::calibrate_by_scans({&first.drive, 1}, kLoaded);
   const CarmenLog second = read(halves[1]);
-  lidar::Unknowns loaded = lidar::nothing_wrong(), used = loaded;
+  lidar::Unknowns loaded = lidar::nothing_wrong(kLoaded), used = loaded;
   for (lidar::Unknowns* unknowns : {&loaded, &used}) {
     (*unknowns)(lidar::kLeverX) = found.scanner.x_m;
     (*unknowns)(lidar::kLeverY) = found.scanner.y_m;
@@ -91,6 +91,7 @@ Judged judged(const std::string& name) {
   used(lidar::kScale) = (found.factors.c_r + found.factors.c_l) / 2;
   used(lidar::kTurn) = used(lidar::kScale) * kWheelbase_m / found.factors.b_m;
   used(lidar::kBend) = (found.factors.c_r - found.factors.c_l) / found.factors.b_m;
+  used(lidar::kArcs) = found.factors.e;
   const Judged result{found.judged && found.choice.better(),
                       error_m(second, halves[1], used) / error_m(second, halves[1], loaded)};
   fmt::print("{}: {} ({}), error on the second half x {:.2f}\n", name,
