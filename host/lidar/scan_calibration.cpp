@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <vector>
 
 #include "host/lidar/mounting_search.hpp"
 #include "host/lidar/scan_remarks.hpp"
@@ -90,10 +92,25 @@ std::vector<StretchResidual> residuals_of(std::span<const Stretch> stretches, co
 
 Freedom all_free(bool late) { return FactorSet{"", true, true, true}.freedom(late); }
 
+/// What is held out follows the order of the drives, so that they are taken in one of their own, whatever order they come in.
+std::vector<ScannedDrive> in_order(std::span<const ScannedDrive> drives) {
+  std::vector<ScannedDrive> ordered(drives.begin(), drives.end());
+  const auto key = [](const ScannedDrive& drive) {
+    const calibration::WheelSample first = drive.wheels.empty() ? calibration::WheelSample{}
+                                                                : drive.wheels.front(),
+                                   last = drive.wheels.empty() ? calibration::WheelSample{}
+                                                               : drive.wheels.back();
+    return std::tuple(drive.origin_ns, first.time_s, last.time_s, last.right_m, last.left_m);
+  };
+  std::ranges::sort(ordered, {}, key);
+  return ordered;
+}
+
 }  // namespace
 
-ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> drives,
+ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> given,
                                    const calibration::WheelFactors& loaded, bool mirrored) {
+  const std::vector<ScannedDrive> drives = in_order(given);
   constexpr int kMostTimes = 4;
   const bool late = std::all_of(drives.begin(), drives.end(),
                                 [](const ScannedDrive& drive) { return drive.times_measured; });

@@ -126,7 +126,7 @@ TEST(MethodNames, ComeBackAsTheyWere) {
 TEST(MethodNames, NameTheWordThatIsNone) {
   EXPECT_THAT([] { method_named("magic", "average", "exact"); },
               ThrowsTelling(NameProblem::unknown, "magic", "method",
-                            "auto, ml, umbmark, extended, least-squares, robust"));
+                            "auto, ml, scan, umbmark, extended, least-squares, robust"));
   EXPECT_THAT([] { order_named("sideways"); },
               ThrowsTelling(NameProblem::unknown, "sideways", "order of directions",
                             "alternating, cw-first, ccw-first"));

@@ -141,7 +141,8 @@ TEST(Codec, AMessageBehindOtherFieldsIsAlignedWithThem) {
   out.number(std::uint64_t{7});
   out.number(std::int64_t{8});
   put(out, msg::SetBool::Request{true});
-  CdrReader in(out.bytes());
+  const Bytes bytes = out.bytes();
+  CdrReader in(bytes);
   EXPECT_EQ(in.number<std::uint64_t>(), 7U);
   EXPECT_EQ(in.number<std::int64_t>(), 8);
   msg::SetBool::Request request;

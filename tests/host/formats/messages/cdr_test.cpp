@@ -70,7 +70,8 @@ TEST(Cdr, ReaderGivesBackWhatTheWriterTook) {
   out.number(-1.25e300);
   out.string("");
   out.number(std::int32_t{-5});
-  ros2::CdrReader in(out.bytes());
+  const Bytes bytes = out.bytes();
+  ros2::CdrReader in(bytes);
   EXPECT_EQ(in.number<std::uint8_t>(), 7);
   EXPECT_EQ(in.string(), "odom");
   EXPECT_EQ(in.number<double>(), -1.25e300);
