@@ -86,8 +86,9 @@ json DrivingCalls::stop(live::RobotSession& session) {
 }
 
 json DrivingCalls::emergency_stop(live::RobotSession& session) {
+  session.ask(protocol::EmergencyStop{});  // first, and if it fails the robot is still known to be armed
   driving_.release();
-  session.ask(protocol::EmergencyStop{});
+  ask_rest_at_.reset();
   end_path("the robot was stopped");
   return notice("the motors are off");
 }

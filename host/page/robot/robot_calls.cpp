@@ -332,8 +332,8 @@ void RobotCalls::leave(Page page) {
   watches_.erase(page);
   if (!robot_) return;
   try {
-    ask_for_telemetry();
     if (live::RobotSession* found = robot_->session()) driving_.leave(*found, page);
+    ask_for_telemetry();  // last: a stop does not wait for it
   } catch (const Error& error) {
     lose(error);
   }
