@@ -17,11 +17,9 @@ namespace {
 
 using nlohmann::json;
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 
 constexpr microseconds kBetweenPathEvents = milliseconds(100);
 constexpr microseconds kBetweenAsking = milliseconds(50);
-constexpr microseconds kLongestRamp = seconds(5);  // as host/robot/motion/rest.hpp has it
 
 json notice(const std::string& sentence) { return {{"notice", sentence}}; }
 
@@ -143,7 +141,7 @@ void DrivingCalls::leave(live::RobotSession& session, Page page) {
   driver_ = 0;
   const microseconds now = session.client().now();
   ask_rest_at_ = now + kBetweenAsking;
-  disarm_at_ = now + kLongestRamp;
+  disarm_at_ = now + robot::longest_stop(session.numbers());
 }
 
 void DrivingCalls::disarm_at_rest(live::RobotSession& session) {

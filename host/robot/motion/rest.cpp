@@ -13,22 +13,6 @@ using std::chrono::milliseconds;
 constexpr microseconds kStopPoll = milliseconds(50);
 constexpr microseconds kUsualRamp = milliseconds(5000);
 
-/// Longest ramp from the greatest allowed speed to rest, plus one second each for the jerk limit, for the
-/// wheels to settle (the robot's own deadline) and for the link. A limit that is not in the robot's parameter
-/// table is ignored.
-microseconds longest_ramp(Client& client) {
-  const RemoteParameters parameters = RemoteParameters::fetch(client);
-  const auto value = [&](std::string_view name) {
-    return parameters.find(name) != nullptr ? parameters.number(name) : 0;
-  };
-  const auto seconds = [&](std::string_view speed, std::string_view acceleration) {
-    return value(acceleration) > 0 ? value(speed) / value(acceleration) : 0;
-  };
-  const double ramp_s = std::max(seconds("speed_limit", "acceleration_limit"),
-                                 seconds("yaw_rate_limit", "yaw_acceleration_limit"));
-  return microseconds(static_cast<std::int64_t>(1e6 * (ramp_s + 3)));
-}
-
 bool stops_before(Client& client, microseconds deadline) {
   while (protocol::gives_power(client.request(protocol::GetStatus{}).mode)) {
     if (client.now() >= deadline) return false;
@@ -38,6 +22,19 @@ bool stops_before(Client& client, microseconds deadline) {
 }
 
 }  // namespace
+
+microseconds longest_stop(const std::map<std::string, double>& parameters) {
+  const auto value = [&](const char* name) {
+    const auto found = parameters.find(name);
+    return found == parameters.end() ? 0 : found->second;
+  };
+  const auto seconds = [&](const char* speed, const char* acceleration) {
+    return value(acceleration) > 0 ? value(speed) / value(acceleration) : 0;
+  };
+  const double ramp_s = std::max(seconds("speed_limit", "acceleration_limit"),
+                                 seconds("yaw_rate_limit", "yaw_acceleration_limit"));
+  return std::max(kUsualRamp, microseconds(static_cast<std::int64_t>(1e6 * (ramp_s + 3))));
+}
 
 bool wait_until_wheels_stopped(Client& client) {
   constexpr std::uint16_t kPeriod_ms = 20;
@@ -58,7 +55,7 @@ bool wait_until_wheels_stopped(Client& client) {
 bool wait_until_power_off(Client& client) {
   const microseconds start = client.now();
   if (stops_before(client, start + kUsualRamp)) return true;
-  if (stops_before(client, start + longest_ramp(client))) return true;
+  if (stops_before(client, start + longest_stop(RemoteParameters::fetch(client).numbers()))) return true;
   client.request(protocol::Disarm{});
   return false;
 }

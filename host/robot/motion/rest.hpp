@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "host/robot/client/client.hpp"
 
 namespace astro::robot {
@@ -7,9 +10,13 @@ namespace astro::robot {
 /// What a Resume means to a robot whose mode was not `paused`. A robot that still ramps to rest is in the mode of its drive.
 inline constexpr const char* kNotPaused = "the robot was not paused, unless it was still coming to rest";
 
-/// Waits until a robot that received a stop request no longer powers its motors. The time limit is the
-/// longest ramp that the motion limits allow, and at least five seconds. A robot that still drives then is
-/// disarmed, which opens its bridges at once, so it may roll on.
+/// The time after which a robot that received a stop request no longer powers its motors: the longest ramp that the motion limits
+/// allow, plus one second each for the jerk limit, for the wheels to settle (the robot's own deadline) and for the link, and at
+/// least five seconds. `parameters`: the robot's numbers by name, in SI units; a limit that is missing is ignored.
+microseconds longest_stop(const std::map<std::string, double>& parameters);
+
+/// Waits until a robot that received a stop request no longer powers its motors, for longest_stop at most. A robot that still
+/// drives then is disarmed, which opens its bridges at once, so it may roll on.
 ///
 /// Returns false if it had to be disarmed.
 /// Errors  all that Client::request throws.

@@ -196,6 +196,16 @@ TEST_F(SimulatedRobot, WhenTheDrivingPageGoesTheRobotComesToRestAndIsDisarmed) {
   }
 }
 
+TEST_F(SimulatedRobot, ASoftRampIsNotCutShortWhenTheDrivingPageGoes) {
+  result("stage", {{"name", "acceleration_limit"}, {"value", 0.05}});
+  result("commit", {{"confirm", true}});
+  result("arm");
+  drive_ms(9000, 0.4);
+  calls().leave(kFirst);
+  EXPECT_EQ(state_after_ms(6000)["mode"], "stopping") << "0.4 m/s at 0.05 m/s^2 take 8 s";
+  EXPECT_EQ(state_after_ms(5000)["mode"], "disarmed");
+}
+
 TEST_F(SimulatedRobot, WhenAPageThatOnlyWatchesGoesTheRobotDrivesOn) {
   result("arm");
   result("watch", {{"signals", {"v"}}}, kSecond);
