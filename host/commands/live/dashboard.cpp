@@ -64,6 +64,13 @@ dashboard::Settings settings_of(const DashboardOptions& options) {
   return settings;
 }
 
+/// Where a browser of this computer finds the server. It has no name, because whoever answers to a name would get the token: at
+/// `localhost` another user of this computer may have the address ::1.
+std::string own_place(const std::string& ip, std::uint16_t port) {
+  const std::string own = ip == "0.0.0.0" ? "127.0.0.1" : ip == "::" ? "::1" : ip;
+  return fmt::format("{}:{}", own.find(':') == own.npos ? own : '[' + own + ']', port);
+}
+
 void warn_of_network(const std::string& ip) {
   if (!is_loopback(ip))
     console::say(
@@ -92,8 +99,10 @@ void run(DashboardOptions& options) {
   if (options.connection.port.empty()) find_only_robot(options.connection);
   const dashboard::Dashboard dashboard(settings_of(options));
   const std::string ip = listen_address_in(options.listen.listen).ip;
-  const std::string link = "http://" + place_in_url(ip, dashboard.port()) + dashboard.path_of_link();
+  const std::string link = "http://" + own_place(ip, dashboard.port()) + dashboard.path_of_link();
   print(link);
+  if (ip == "0.0.0.0" || ip == "::")
+    print("from another computer: the same, with the address of this computer in that network");
   warn_of_network(ip);
   console::say("open this link in a browser; Ctrl-C ends it, and stops a robot that a page drives");
   ChildProcess browser;

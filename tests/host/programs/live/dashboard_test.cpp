@@ -64,7 +64,7 @@ std::string mode_of(const std::string& port) {
 TEST(Dashboard, PrintsALinkThatOpensThePageAndEndsWithZero) {
   for (const int signal : {SIGINT, SIGTERM}) {
     RunningDashboard dashboard;
-    EXPECT_THAT(dashboard.link(), StartsWith("http://localhost:"));
+    EXPECT_THAT(dashboard.link(), StartsWith("http://127.0.0.1:"));
     EXPECT_THAT(support::answer_of_server(dashboard.port(), support::request("GET /", dashboard.port())),
                 HasSubstr("the page"));
     EXPECT_GT(dashboard.page().number(), 0);
