@@ -192,6 +192,7 @@ void RobotCalls::ask_for_telemetry() {
     wanted.fields |= each.fields();
   }
   if (recording_) wanted.fields = Telemetry::kAll;
+  stream_ms_ = wanted.period_ms;
   if (robot_) robot_->link().ask_for_telemetry(wanted);
 }
 
@@ -279,7 +280,7 @@ void RobotCalls::take_samples(live::RobotSession& session) {
 void RobotCalls::take(const Telemetry& telemetry) {
   newest_ = telemetry;
   if (recording_) recording_->add(telemetry, robot_->take_truth());
-  for (auto& [page, each] : watches_) each.take(telemetry);
+  for (auto& [page, each] : watches_) each.take(telemetry, stream_ms_);
 }
 
 /// Another program at the same port may drive, of which the robot itself says nothing.

@@ -103,6 +103,7 @@ class RobotCalls {
   DrivingCalls driving_;  // behind robot_, whose session it may use
   ParameterCalls parameters_;
   std::map<Page, SignalWatch> watches_;
+  std::uint16_t stream_ms_ = 0;  // the period of the telemetry that was asked for
   std::optional<protocol::Telemetry> newest_;
   std::optional<WatchedRecording> recording_;
   std::string other_driver_;

@@ -14,10 +14,9 @@ std::uint32_t SignalWatch::fields() const {
   return fields;
 }
 
-void SignalWatch::take(const protocol::Telemetry& telemetry) {
+void SignalWatch::take(const protocol::Telemetry& telemetry, std::uint16_t stream_ms) {
   const std::uint64_t time_us = telemetry.device_time_us;
-  // A robot that has restarted begins again at 0.
-  if (taken_us_ && time_us > *taken_us_ && time_us - *taken_us_ < 1000U * period_ms_) return;
+  if (time_us == taken_us_ || !request_.is_due(time_us, stream_ms)) return;
   taken_us_ = time_us;
   if (times_s_.size() == kMost) {
     times_s_.erase(times_s_.begin());

@@ -292,6 +292,25 @@ TEST_F(SimulatedRobot, ASlowerPageGetsFewerSamplesOfTheSameTelemetry) {
   EXPECT_NEAR(static_cast<double>(fast) / static_cast<double>(slow), 20, 1);
 }
 
+TEST_F(SimulatedRobot, ARateBetweenThoseOfTheTelemetryIsKeptOnAverage) {
+  const double rate_hz = result("watch", {{"signals", {"v"}}, {"rate_hz", 33}})["rate_hz"];
+  run_ms(3000);
+  std::size_t samples = 0;
+  for (const json& batch : events("samples", kFirst)) samples += batch["t_s"].size();
+  // The first and the last sample, and those of the last batch, may be missing.
+  EXPECT_NEAR(static_cast<double>(samples), 3 * rate_hz, 3);
+}
+
+TEST(SignalWatch, LosesNoSampleByStampsThatJitterAndKeepsNoneTwice) {
+  SignalWatch watch({&signal_named("v")}, 1);
+  for (const std::uint64_t stamp_us : {1000, 1999, 3001, 3001, 4000}) {
+    protocol::Telemetry sample;
+    sample.device_time_us = stamp_us;
+    watch.take(sample, 1);
+  }
+  EXPECT_EQ((*watch.batch({}))["t_s"], json({0.001, 0.001999, 0.003001, 0.004}));
+}
+
 TEST_F(SimulatedRobot, SignalsAndRatesThatAreNoneAreNamed) {
   EXPECT_THAT(sentence(ask("watch", {{"signals", {"speed"}}})), HasSubstr("no signal 'speed'"));
   EXPECT_THAT(sentence(ask("watch", {{"signals", {"v"}}, {"rate_hz", 1001}})), HasSubstr("from 1 to 1000"));
