@@ -9,8 +9,8 @@ namespace astro::dashboard {
 namespace {
 
 bool stops(std::string_view call) {
-  constexpr std::array<std::string_view, 4> kStops{kPageGone, "robot/stop", "robot/emergency_stop",
-                                                   "robot/disarm"};
+  constexpr std::array<std::string_view, 5> kStops{kPageGone, "robot/stop", "robot/pause",
+                                                   "robot/emergency_stop", "robot/disarm"};
   return std::ranges::find(kStops, call) != kStops.end();
 }
 
@@ -25,10 +25,11 @@ std::vector<Question> QuestionQueue::push(Question question) {
   const std::lock_guard lock(mutex_);
   std::vector<Question> refused;
   if (stops(question.call)) {
-    // A page that has gone stops the robot only if it drives, so others' requests stay.
-    const bool of_all = question.call != kPageGone;
+    // A page that has gone stops the robot only if it drives, so others' requests stay. Of its own nothing may be done any more:
+    // nobody would end what a page watches or records that is not there.
+    const bool gone = question.call == kPageGone;
     const auto stays = std::stable_partition(others_.begin(), others_.end(), [&](const Question& each) {
-      return !moves(each.call) || (!of_all && each.page != question.page);
+      return gone ? each.page != question.page : !moves(each.call);
     });
     std::move(stays, others_.end(), std::back_inserter(refused));
     others_.erase(stays, others_.end());

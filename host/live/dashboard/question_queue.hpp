@@ -31,7 +31,8 @@ inline constexpr std::string_view kPageGone = "";
 /// What waits for the robot. Any thread pushes, one takes.
 ///
 /// Order   what stops the robot overtakes all else, and what was asked before to move the robot is withdrawn: a robot does not
-///         move after a stop because of what was said before it. The end of a page stops the robot, too.
+///         move after a stop because of what was said before it. The end of a page stops the robot, too, and withdraws all that
+///         the page has asked.
 /// Bounds  kMost questions of each page, without those that stop.
 class QuestionQueue {
  public:

@@ -39,10 +39,19 @@ TEST_F(Queue, AStopOvertakesAllAndWithdrawsWhatWasToMoveTheRobot) {
               ElementsAre("robot/emergency_stop", "robot/parameters", "robot/record", "robot/drive"));
 }
 
-TEST_F(Queue, APageThatGoesWithdrawsItsOwn) {
-  push("robot/arm", 1);
+TEST_F(Queue, APauseIsAStop) {
+  push("robot/parameters");
+  push("robot/path");
+  EXPECT_THAT(push("robot/pause"), ElementsAre("robot/path"));
+  EXPECT_THAT(popped(), ElementsAre("robot/pause", "robot/parameters"));
+}
+
+TEST_F(Queue, APageThatGoesWithdrawsAllItsOwn) {
+  for (const char* call : {"robot/open", "robot/watch", "robot/arm", "robot/record", "robot/commit"})
+    push(call, 1);
   push("robot/path", 2);
-  EXPECT_THAT(push(std::string(kPageGone), 1), ElementsAre("robot/arm"));
+  EXPECT_THAT(push(std::string(kPageGone), 1),
+              ElementsAre("robot/open", "robot/watch", "robot/arm", "robot/record", "robot/commit"));
   EXPECT_THAT(popped(), ElementsAre(std::string(kPageGone), "robot/path"));
 }
 
