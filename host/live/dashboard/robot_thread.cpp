@@ -47,16 +47,18 @@ void RobotThread::run() {
   });
   page::RealTime pace;
   while (!ending_) try {
-      while (const auto question = questions_.pop()) carry_out(calls, *question);
+      // One at a time: however much pages ask, the robot is served between two questions.
+      const auto question = questions_.pop();
+      if (question) carry_out(calls, *question);
       const auto wall =
           std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch());
       if (const auto robot = calls.simulated_now()) {
         calls.step(pace.due(wall, *robot));
-        questions_.wait(kIdle);
+        if (!question) questions_.wait(kIdle);
       } else {
         pace = {};
-        calls.step(calls.armed() ? kArmed : kIdle);
-        if (!calls.waits_for_robot()) questions_.wait(calls.is_open() ? kIdle : kNothingOpen);
+        calls.step(question ? microseconds::zero() : calls.armed() ? kArmed : kIdle);
+        if (!question && !calls.waits_for_robot()) questions_.wait(calls.is_open() ? kIdle : kNothingOpen);
       }
     } catch (const std::exception& error) {  // no memory, for one
       notice_({std::string("a page's question could not be carried out: ") + error.what()});
@@ -65,10 +67,8 @@ void RobotThread::run() {
 
 void RobotThread::carry_out(page::RobotCalls& calls, const Question& question) {
   if (question.call == kPageGone) return calls.leave(question.page);
-  // A velocity that waited for as long as it holds is one of the past.
-  if (question.call == "robot/drive" && Question::Clock::now() - question.came > page::DrivingCalls::kHold)
-    return delivery_.answer(question, page::refusal("the velocity came too late to be driven"));
-  delivery_.answer(question, calls.answer(question.page, question.call, question.question));
+  const auto waited = std::chrono::duration_cast<microseconds>(Question::Clock::now() - question.came);
+  delivery_.answer(question, calls.answer(question.page, question.call, question.question, waited));
 }
 
 }  // namespace astro::dashboard

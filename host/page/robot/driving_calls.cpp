@@ -102,16 +102,17 @@ json DrivingCalls::resume(live::RobotSession& session, Page page) {
   return notice(driving_.resume(session));
 }
 
-json DrivingCalls::drive(live::RobotSession& session, Page page, const json& question) {
+json DrivingCalls::drive(live::RobotSession& session, Page page, const json& question, microseconds waited) {
   constexpr double kFastest = 100;  // m/s and rad/s; the robot's own limits are far below
   require_driver(page);
   if (path_under_way())
     throw Error("the robot drives a path: stop it first", RobotCallProblem::path_under_way);
+  if (waited >= kHold) throw Error("the velocity came too late to be driven");
   ros2::msg::Twist twist;
   twist.linear.x = number_in(question, "v_mps", -kFastest, kFastest).value_or(0);
   twist.angular.z = number_in(question, "w_radps", -kFastest, kFastest).value_or(0);
   const microseconds now = session.client().now();
-  driving_.take(std::optional(twist), {now, 0, {}});
+  driving_.take(std::optional(twist), {now, 0, waited});
   driving_.step(session, now);
   if (!driving_.armed()) throw Error(driving_.counts().last_reason, RobotCallProblem::halted);
   return json::object();

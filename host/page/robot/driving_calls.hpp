@@ -31,7 +31,8 @@ class DrivingCalls {
   Answer emergency_stop(live::RobotSession& session);
   Answer pause(live::RobotSession& session);
   Answer resume(live::RobotSession& session, Page page);
-  Answer drive(live::RobotSession& session, Page page, const nlohmann::json& question);
+  /// `waited`: how long ago the page asked; a velocity that is older than it holds is refused.
+  Answer drive(live::RobotSession& session, Page page, const nlohmann::json& question, microseconds waited);
   Answer path(live::RobotSession& session, Page page, const nlohmann::json& question);
 
   /// Sends what is due, goes on with a path, and disarms a robot that came to rest after its page had gone.

@@ -83,10 +83,11 @@ const std::map<std::string_view, json (RobotCalls::*)(Page, const json&)>& Robot
   return all;
 }
 
-json RobotCalls::answer(Page page, const std::string& call, const json& question) {
+json RobotCalls::answer(Page page, const std::string& call, const json& question, microseconds waited) {
   const auto found = calls().find(call);
   if (found == calls().end()) return refusal("there is no call '" + call + "'", {call});
   if (!question.is_object()) return refusal("the question is no object");
+  waited_ = waited;
   json told = attempt(
       [&] {
         try {
@@ -206,7 +207,9 @@ json RobotCalls::clear_faults(Page, const json&) {
   session().ask(protocol::ClearFaults{});
   return {{"notice", "cleared"}};
 }
-json RobotCalls::drive(Page page, const json& question) { return driving_.drive(session(), page, question); }
+json RobotCalls::drive(Page page, const json& question) {
+  return driving_.drive(session(), page, question, waited_);
+}
 json RobotCalls::path(Page page, const json& question) { return driving_.path(session(), page, question); }
 json RobotCalls::parameters(Page, const json&) {
   // While the robot drives nobody can change them, and the link has no time for the table.

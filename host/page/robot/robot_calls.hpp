@@ -41,7 +41,9 @@ class RobotCalls {
   /// The answer to robot/ports, of which the list may take half a second: for callers that ask it in another thread.
   static nlohmann::json ports_answer(const RobotPorts& ports);
 
-  nlohmann::json answer(Page page, const std::string& call, const nlohmann::json& question);
+  /// `waited`: how long ago the page asked this.
+  nlohmann::json answer(Page page, const std::string& call, const nlohmann::json& question,
+                        microseconds waited = {});
 
   /// Lets the link work for this time, or until something has come, and tells what is due. The time is that of the robot's link: a
   /// simulated robot moves on by this much, and nobody waits.
@@ -106,6 +108,7 @@ class RobotCalls {
   std::uint16_t stream_ms_ = 0;  // the period of the telemetry that was asked for
   std::optional<protocol::Telemetry> newest_;
   std::optional<WatchedRecording> recording_;
+  microseconds waited_{};  // of the question that is being answered
   std::string other_driver_;
   microseconds look_at_{};  // for another program that drives
   StateReport state_report_;

@@ -131,6 +131,21 @@ TEST_F(SimulatedRobot, RestsWhenNobodyRepeatsItsVelocity) {
   EXPECT_TRUE(state()["moving"].get<bool>()) << "and the page drives on without arming again";
 }
 
+TEST_F(SimulatedRobot, AVelocityHoldsFromWhenItWasAskedFor) {
+  const auto ms_until_rest = [&](milliseconds waited) {
+    result("arm");
+    drive_ms(1500, 0.3);
+    calls().answer(kFirst, "robot/drive", {{"v_mps", 0.3}, {"w_radps", 0}}, waited);
+    int ms = 0;
+    for (; ms < 5000 && state()["mode"] != "idle"; ms += 10) run_ms(10);
+    return ms;
+  };
+  // Time is looked at every 10 ms, and the robot's ticks and the link add a few.
+  EXPECT_NEAR(ms_until_rest(milliseconds(0)) - ms_until_rest(milliseconds(200)), 200, 30);
+  const json late = calls().answer(kFirst, "robot/drive", {{"v_mps", 0.3}}, DrivingCalls::kHold);
+  EXPECT_THAT(sentence(late), HasSubstr("too late"));
+}
+
 TEST_F(SimulatedRobot, StopHoldsUntilItIsArmedAgain) {
   result("arm");
   drive_ms(500, 0.3);
