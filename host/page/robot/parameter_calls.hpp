@@ -8,7 +8,7 @@
 
 namespace astro::page {
 
-/// The robot's parameters as a page shows and changes them: values are staged here until a commit puts them in force together,
+/// The robot's parameters as one page shows and changes them: its values are staged here until a commit puts them in force together,
 /// in the robot's flash, by the rules of every other program (host/robot/parameters).
 class ParameterCalls {
  public:

@@ -148,7 +148,7 @@ json RobotCalls::open(Page page, const json& question) {
 json RobotCalls::description(Page page) {
   live::RobotSession& found = known_session();
   const protocol::HelloReply& robot = found.client().robot();
-  json told = parameters_.list(found);
+  json told = parameters_[page].list(found);
   told.update({{"port", robot_->port()},
                {"name", experiment::info_of(robot, {}).robot_name},
                {"firmware", robot::firmware_version(robot)},
@@ -169,7 +169,7 @@ json RobotCalls::close(Page page, const json&) {
   robot_.reset();
   newest_.reset();
   watches_.clear();
-  parameters_.discard();
+  parameters_.clear();
   other_driver_.clear();
   return json::object();
 }
@@ -211,16 +211,19 @@ json RobotCalls::drive(Page page, const json& question) {
   return driving_.drive(session(), page, question, waited_);
 }
 json RobotCalls::path(Page page, const json& question) { return driving_.path(session(), page, question); }
-json RobotCalls::parameters(Page, const json&) {
+json RobotCalls::parameters(Page page, const json&) {
   // While the robot drives nobody can change them, and the link has no time for the table.
-  return driving_.armed() ? parameters_.list(known_session()) : parameters_.read(known_session());
+  ParameterCalls& own = parameters_[page];
+  return driving_.armed() ? own.list(known_session()) : own.read(known_session());
 }
-json RobotCalls::stage(Page, const json& question) { return parameters_.stage(known_session(), question); }
+json RobotCalls::stage(Page page, const json& question) {
+  return parameters_[page].stage(known_session(), question);
+}
 json RobotCalls::commit(Page page, const json& question) {
   driving_.require_free_for(page);
-  return parameters_.commit(known_session(), question);
+  return parameters_[page].commit(known_session(), question);
 }
-json RobotCalls::discard(Page, const json&) { return parameters_.discard(); }
+json RobotCalls::discard(Page page, const json&) { return parameters_[page].discard(); }
 
 json RobotCalls::record(Page, const json& question) {
   const bool on = flag_in(question, "on");
@@ -334,6 +337,7 @@ void RobotCalls::report() {
 
 void RobotCalls::leave(Page page) {
   watches_.erase(page);
+  parameters_.erase(page);
   if (!robot_) return;
   try {
     if (live::RobotSession* found = robot_->session()) driving_.leave(*found, page);

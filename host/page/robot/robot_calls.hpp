@@ -102,8 +102,8 @@ class RobotCalls {
   std::filesystem::path folder_;
   Tell tell_;
   std::unique_ptr<OpenedRobot> robot_;
-  DrivingCalls driving_;  // behind robot_, whose session it may use
-  ParameterCalls parameters_;
+  DrivingCalls driving_;                       // behind robot_, whose session it may use
+  std::map<Page, ParameterCalls> parameters_;  // a page puts in force what it has staged, and nobody else has
   std::map<Page, SignalWatch> watches_;
   std::uint16_t stream_ms_ = 0;  // the period of the telemetry that was asked for
   std::optional<protocol::Telemetry> newest_;

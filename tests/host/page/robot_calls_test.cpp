@@ -368,6 +368,17 @@ TEST_F(SimulatedRobot, ADiscardedValueIsForgotten) {
   EXPECT_EQ(value_in(result("commit"), "command_timeout"), 200);
 }
 
+TEST_F(SimulatedRobot, APagePutsInForceOnlyWhatItHasStagedItself) {
+  result("stage", {{"name", "command_timeout"}, {"value", 0}});
+  EXPECT_EQ(result("stage", {{"name", "c_R"}, {"value", 1.002}}, kSecond)["staged"].size(), 1U);
+  const json committed = result("commit", {{"confirm", true}}, kSecond);
+  EXPECT_EQ(value_in(committed, "c_R"), 1.002);
+  EXPECT_EQ(value_in(committed, "command_timeout"), 200);
+  calls().leave(kFirst);
+  EXPECT_EQ(value_in(result("commit", {{"confirm", true}}), "command_timeout"), 200)
+      << "what a page has staged ends with it";
+}
+
 TEST_F(SimulatedRobot, ParametersAreNotCommittedWhileItMoves) {
   result("stage", {{"name", "c_R"}, {"value", 1.002}});
   result("arm");
