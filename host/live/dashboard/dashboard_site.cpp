@@ -39,7 +39,6 @@ bool is_cross_site(const web::RequestHead& request) {
 
 web::Limits DashboardSite::limits() const {
   web::Limits limits;
-  limits.body_bytes = SessionFiles::kMostBytes;
   limits.idle_s = static_cast<int>(page_timeout_.count());
   return limits;
 }

@@ -15,6 +15,8 @@
 #include <boost/beast/websocket/stream.hpp>
 #include <boost/beast/websocket/teardown.hpp>
 #include <chrono>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,7 +64,9 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
     allow(kHandshakeTime);
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(limits_.header_bytes));
-    parser_->body_limit(limits_.body_bytes);
+    // The site decides by the header, and an upload has its own limit: what is too much gets an answer that says so. No number
+    // means no limit, but Boost 1.74 takes it for zero.
+    parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
     http::async_read_header(
         stream_.next_layer(), buffer_, *parser_,
         [self = shared_from_this()](error_code error, std::size_t) { self->decide(error); });

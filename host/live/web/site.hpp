@@ -84,7 +84,6 @@ using Decision = std::variant<Response, Upload, Upgrade>;
 
 struct Limits {
   std::size_t header_bytes = 8 * 1024, message_bytes = 1 << 20;
-  std::uint64_t body_bytes = 0;
   int idle_s = 30;  // who does not answer a ping within half of this is disconnected
 };
 

@@ -134,6 +134,11 @@ TEST_F(Served, FilesComeAndGoWithTheToken) {
   EXPECT_THAT(said("GET /files/..%2f..%2fetc%2fpasswd", bearer()), StartsWith("HTTP/1.1 404"));
 }
 
+TEST_F(Served, AFileThatIsTooLargeIsAnswered) {
+  EXPECT_THAT(said("PUT /files/a.csv", bearer() + "Content-Length: 1000000000000\r\n"),
+              StartsWith("HTTP/1.1 507"));
+}
+
 TEST_F(Served, CallsReadTheFilesThatWereDropped) {
   ASSERT_THAT(said("PUT /files/wheels.csv", bearer(), "time,left,right\n0,0,0\n0.1,10,10\n0.2,20,20\n"),
               StartsWith("HTTP/1.1 204"));
