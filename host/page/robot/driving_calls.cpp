@@ -137,12 +137,15 @@ void DrivingCalls::step(live::RobotSession& session) {
 }
 
 void DrivingCalls::leave(live::RobotSession& session, Page page) {
-  if (!driving_.armed() || driver_ != page) return;
+  if (driver_ == page) finish(session);
+}
+
+void DrivingCalls::finish(live::RobotSession& session) {
+  if (!driving_.armed()) return;
   stop(session);
   driver_ = 0;
-  const microseconds now = session.client().now();
-  ask_rest_at_ = now + kBetweenAsking;
-  disarm_at_ = now + robot::longest_stop(session.numbers());
+  disarm_at_ = session.client().now() + robot::longest_stop(session.numbers());
+  disarm_at_rest(session);
 }
 
 void DrivingCalls::disarm_at_rest(live::RobotSession& session) {

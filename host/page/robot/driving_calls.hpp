@@ -37,8 +37,10 @@ class DrivingCalls {
 
   /// Sends what is due, goes on with a path, and disarms a robot that came to rest after its page had gone.
   void step(live::RobotSession& session);
-  /// The page has gone: if it drives, the robot is stopped now and disarmed once it is at rest.
+  /// The page has gone: if it drives, finish().
   void leave(live::RobotSession& session, Page page);
+  /// The robot is stopped now, and disarmed by a step() once it is at rest, if a page drives it.
+  void finish(live::RobotSession& session);
   /// Stops the robot, waits for its rest and disarms it, if a page drives it. Throws astro::Error if it does not come to rest.
   void end(live::RobotSession& session);
   /// Nobody drives any more: of a fault, or of a link that is lost. Must be called before its session ends.
@@ -65,7 +67,7 @@ class DrivingCalls {
   std::string path_ended_;  // early, and not told yet
   double path_done_ = 0;    // as it was told last
   std::optional<microseconds> path_told_at_;
-  /// After its page has gone: when the robot is asked next whether it is at rest, and when it is disarmed anyway.
+  /// After finish(): when the robot is asked next whether it is at rest, and when it is disarmed anyway.
   std::optional<microseconds> ask_rest_at_;
   microseconds disarm_at_{};
 };

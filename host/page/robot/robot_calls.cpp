@@ -55,8 +55,13 @@ RobotCalls::RobotCalls(RobotPorts ports, std::filesystem::path folder, Tell tell
 
 RobotCalls::~RobotCalls() {
   try {
-    if (robot_) close(driving_.driver(), json::object());
+    if (live::RobotSession* found = robot_ ? robot_->session() : nullptr) driving_.end(*found);
   } catch (const std::exception&) {  // a robot that cannot be reached stops by its own time-out
+  }
+  try {
+    if (recording_) recording_->close();
+    if (robot_) forget_robot();
+  } catch (const std::exception&) {  // there is nobody left to be told
   }
 }
 
@@ -130,6 +135,7 @@ live::RobotSession& RobotCalls::known_session() {
 }
 
 json RobotCalls::open(Page page, const json& question) {
+  require_no_close();
   const std::string port = text_in(question, "port");
   const auto simulated = question.find("simulated");
   const bool asks_for_one = !port.empty() || simulated != question.end();
@@ -160,18 +166,34 @@ json RobotCalls::description(Page page) {
 }
 
 json RobotCalls::close(Page page, const json&) {
-  if (!robot_) return json::object();
+  if (!robot_ || closing_) return json::object();
   driving_.require_free_for(page);
-  if (live::RobotSession* found = robot_->session()) driving_.end(*found);
-  driving_.release("the robot was closed");
+  if (live::RobotSession* found = robot_->session()) driving_.finish(*found);
+  closing_ = true;
   if (recording_) record(page, {{"on", false}});
+  finish_close();
+  return json::object();
+}
+
+/// What opens, arms or records a robot waits until it is closed.
+void RobotCalls::require_no_close() const {
+  if (closing_) throw Error("the robot is brought to rest and closed: ask again once it is");
+}
+
+/// A stop is answered meanwhile, so nobody waits here for a robot's ramp.
+void RobotCalls::finish_close() {
+  if (closing_ && (!driving_.armed() || robot_->session() == nullptr)) forget_robot();
+}
+
+void RobotCalls::forget_robot() {
+  closing_ = false;
+  driving_.release("the robot was closed");
   report();
   robot_.reset();
   newest_.reset();
   watches_.clear();
   parameters_.clear();
   other_driver_.clear();
-  return json::object();
 }
 
 json RobotCalls::watch(Page page, const json& question) {
@@ -197,7 +219,10 @@ void RobotCalls::ask_for_telemetry() {
   if (robot_) robot_->link().ask_for_telemetry(wanted);
 }
 
-json RobotCalls::arm(Page page, const json&) { return driving_.arm(known_session(), page); }
+json RobotCalls::arm(Page page, const json&) {
+  require_no_close();
+  return driving_.arm(known_session(), page);
+}
 json RobotCalls::disarm(Page, const json&) { return driving_.disarm(session()); }
 json RobotCalls::stop(Page, const json&) { return driving_.stop(session()); }
 json RobotCalls::pause(Page, const json&) { return driving_.pause(session()); }
@@ -229,6 +254,7 @@ json RobotCalls::record(Page, const json& question) {
   const bool on = flag_in(question, "on");
   if (on && recording_) throw Error("a recording is under way: end it first", {}, {recording_->file()});
   if (on) {
+    require_no_close();
     live::RobotSession& found = known_session();
     recording::RunInfo info = experiment::info_of(found.client().robot(), found.numbers());
     robot_->take_truth();  // that of before is not recorded
@@ -262,6 +288,7 @@ void RobotCalls::step(microseconds most) {
       lose(error);
     }
   } while (robot_->session() != nullptr && robot_->now() < until);
+  finish_close();
   report();
 }
 

@@ -88,6 +88,9 @@ class RobotCalls {
   OpenedRobot& robot();
   live::RobotSession& session() { return robot().required_session(); }
   live::RobotSession& known_session();
+  void require_no_close() const;
+  void finish_close();
+  void forget_robot();
   Answer description(Page page);
   void work(microseconds most);
   void take_samples(live::RobotSession& session);
@@ -105,6 +108,7 @@ class RobotCalls {
   DrivingCalls driving_;                       // behind robot_, whose session it may use
   std::map<Page, ParameterCalls> parameters_;  // a page puts in force what it has staged, and nobody else has
   std::map<Page, SignalWatch> watches_;
+  bool closing_ = false;         // the robot is brought to rest first
   std::uint16_t stream_ms_ = 0;  // the period of the telemetry that was asked for
   std::optional<protocol::Telemetry> newest_;
   std::optional<WatchedRecording> recording_;

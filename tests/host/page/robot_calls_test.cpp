@@ -408,9 +408,29 @@ TEST_F(SimulatedRobot, ClosingLeavesItDisarmedAndAnotherOneMayBeOpened) {
   result("arm");
   drive_ms(300, 0.3);
   result("close");
-  EXPECT_FALSE(state()["open"].get<bool>());
+  EXPECT_TRUE(state_after_ms(50)["moving"].get<bool>()) << "nobody waits for its ramp";
+  for (const char* call : {"open", "arm"})
+    EXPECT_THAT(sentence(ask(call)), HasSubstr("ask again")) << call << " comes too early";
+  EXPECT_FALSE(state_after_ms(2000)["open"].get<bool>());
   result("open", {{"simulated", json::object()}});
   EXPECT_FALSE(state_after_ms(100)["armed"].get<bool>());
+}
+
+TEST_F(SimulatedRobot, AtRestIsClosedAtOnce) {
+  result("arm");
+  run_ms(100);
+  result("close");
+  EXPECT_FALSE(state()["open"].get<bool>());
+}
+
+TEST_F(SimulatedRobot, AnEmergencyStopDoesNotWaitForTheRampOfAClose) {
+  result("arm");
+  drive_ms(1500, 0.5);
+  result("close");
+  run_ms(50);
+  result("emergency_stop", json::object(), kSecond);
+  run_ms(20);
+  EXPECT_FALSE(state()["open"].get<bool>()) << "the motors are off, and there is nothing to wait for";
 }
 
 /// A robot at the end of a cable.
