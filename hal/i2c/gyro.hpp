@@ -12,7 +12,8 @@
 namespace astro::i2c {
 
 /// A gyro of gyro_chips.hpp at a bus: finds it, starts it, and fetches a sample every five ticks. A chip that does not answer, that
-/// repeats itself for 0.2 s, or whose bus hangs has failed; then the bus is released, and a second later the search begins anew.
+/// measures nothing at all, that repeats itself for 0.2 s, or whose bus hangs has failed; then the bus is released, and a second
+/// later the search begins anew.
 ///
 /// Cost    call read() once a tick. A few instructions in most ticks, a sample's decoding in one of five. Without a gyro one
 ///         transfer for each address, once a second.
@@ -58,7 +59,7 @@ class Gyro {
   enum class Step : std::uint8_t { find, start, sample, release };
 
   static constexpr int kHangs_ticks = 30;     // releasing a bus takes 22, any transfer five
-  static constexpr int kMostMisses = 4;       // transfers in a row that fail in a chip that works
+  static constexpr int kMostMisses = 4;       // samples in a row that fail in a chip that works
   static constexpr int kFrozen_samples = 40;  // noise moves some axis in each, in a chip that works
   static constexpr int kSearch_ticks = 1000;  // between two searches
   static constexpr std::size_t kCandidates = 2 * kGyroChips.size();
@@ -79,14 +80,14 @@ class Gyro {
   }
 
   void note_sample(Transfer at) {
-    const auto bytes = bus_.bytes();
-    if (at != Transfer::done || bytes[chip().count - 1U] == 0xFF) [[unlikely]] {
+    if (at != Transfer::done || bus_.bytes()[chip().count - 1U] == 0xFF) [[unlikely]] {
       pause_ticks_ = std::max(kPeriod_ticks - 1 - busy_ticks_, 0);
-      if (at == Transfer::lost || ++misses_ >= kMostMisses) fail(at == Transfer::lost);
-      return;
+      return miss(at == Transfer::lost);
     }
-    misses_ = 0;
     fetched_ = true;
+  }
+  [[gnu::noinline]] void miss(bool lost) {
+    if (lost || ++misses_ >= kMostMisses) fail(lost);
   }
 
   /// In a tick of its own.
@@ -99,6 +100,10 @@ class Gyro {
     };
     const std::size_t place = chip().rate_at;
     const std::array<std::int16_t, 3> rate{word(place), word(place + 2), word(place + 4)};
+    // A chip that has lost its power for a moment acknowledges everything, but does not measure: its registers are 0.
+    if (hal::same_rate(rate, {})) [[unlikely]]
+      return miss(false);
+    misses_ = 0;
     same_ = hal::same_rate(rate, reading_.rate) ? same_ + 1 : 0;
     reading_.rate = rate;
     if (chip().temperature_at != GyroChip::kNoTemperature)

@@ -63,6 +63,7 @@ void GyroChip::take_rates(double count_radps) {
 // ---- FXAS21002C
 
 void Fxas21002c::power_on() {
+  clear_rates();
   control0_ = control1_ = control3_ = 0;
   busy_for_ms(1);
 }
@@ -126,6 +127,7 @@ void Fxas21002c::sample() {
 // ---- MPU-6050
 
 void Mpu6050::power_on() {
+  clear_rates();
   power_ = 0x40;
   divider_ = filter_ = range_ = 0;
   busy_for_ms(30);
@@ -182,6 +184,7 @@ void Mpu6050::sample() {
 // ---- ICM-20948
 
 void Icm20948::power_on() {
+  clear_rates();
   power_ = 0x41;
   bank_ = divider_ = 0;
   range_ = 1;

@@ -54,6 +54,8 @@ class GyroChip : public I2cDevice {
   /// The upper (0) or lower (1) byte of each axis, two by two.
   std::uint8_t rate_byte(std::size_t place) const;
   void take_rates(double count_radps);
+  /// As a reset does. The rates stay 0 until the chip measures.
+  void clear_rates() { counts_ = {}; }
 
   Rates rates_;
 

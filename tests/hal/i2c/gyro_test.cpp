@@ -104,7 +104,7 @@ TEST(I2cGyro, IsFoundByItsIdentityAtEitherAddressAndStartedFromItsTable) {
 TEST(I2cGyro, TheTemperatureComesWithTheRatesWhereItLiesBesideThem) {
   Rig rig;
   rig.bus.chip = 0x69;
-  rig.bus.registers = {{0x75, 0x68}, {0x41, 0xF2}, {0x42, 0x86}};  // -3450
+  rig.bus.registers = {{0x75, 0x68}, {0x41, 0xF2}, {0x42, 0x86}, {0x44, 0x01}};  // -3450; X
   rig.run(300);
   EXPECT_EQ(rig.reading.state, State::running);
   EXPECT_NEAR(rig.reading.temperature_cC, (-3450 / 340.0 + 36.53) * 100, 1.01);
@@ -164,6 +164,43 @@ TEST(I2cGyro, HalfASampleIsNoSample) {
   rig.run(12);
   EXPECT_EQ(rig.reading.rate[1], before[1]);
   EXPECT_EQ(rig.run(100).state, State::failed);
+}
+
+TEST(I2cGyro, AChipThatWasResetWhileItTurnsIsToldWithinTheMissesAndNoneOfItsZerosIsASample) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  rig.run(300);
+  const auto measures = rig.bus.registers;
+  const std::size_t once = rig.bus.written.size();
+  rig.bus.registers = {{0x0C, 0xD7}};  // in standby
+  rig.moves = false;
+  const std::uint64_t last_us = rig.reading.time_us;
+  rig.run(25);
+  EXPECT_EQ(rig.reading.state, State::failed) << "four misses, of five ticks each";
+  EXPECT_LE(rig.reading.time_us, last_us + 5000) << "the one that was under way at most";
+  EXPECT_EQ(rig.reading.rate[1], -2);
+  for (int tick = 0; tick < 1500 && rig.bus.written.size() < 2 * once; ++tick) {
+    rig.run(1);
+    EXPECT_EQ(rig.reading.rate[1], -2);
+  }
+  ASSERT_EQ(rig.bus.written.size(), 2 * once) << "started again";
+  rig.bus.registers = measures;
+  rig.moves = true;
+  EXPECT_EQ(rig.run(200).state, State::running);
+}
+
+TEST(I2cGyro, ASampleOfZerosIsLeftOutAndNoFailure) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  rig.run(300);
+  const auto measures = rig.bus.registers;
+  rig.bus.registers = {{0x0C, 0xD7}};
+  rig.moves = false;
+  rig.run(10);
+  rig.bus.registers = measures;
+  rig.moves = true;
+  EXPECT_EQ(rig.run(100).state, State::running) << "noise happens to be 0 about all axes now and then";
+  EXPECT_EQ(rig.bus.written.size(), gyro_chips::kFxas21002c.size()) << "not started again";
 }
 
 TEST(I2cGyro, OneThatRepeatsItselfIsStartedAgain) {
