@@ -13,7 +13,7 @@ namespace astro::i2c {
 
 /// A gyro of gyro_chips.hpp at a bus: finds it, starts it, and fetches a sample every five ticks. A chip that does not answer, that
 /// measures nothing at all, that repeats itself for 0.2 s, or whose bus hangs has failed; then the bus is released, and a second
-/// later the search begins anew.
+/// later the search begins anew. After a single transfer that is lost the bus is released, and the samples go on.
 ///
 /// Cost    call read() once a tick. A few instructions in most ticks, a sample's decoding in one of five. Without a gyro one
 ///         transfer for each address, once a second.
@@ -56,7 +56,13 @@ class Gyro {
 
  private:
   using State = hal::GyroReading::State;
-  enum class Step : std::uint8_t { find, start, sample, release };
+  enum class Step : std::uint8_t {
+    find,
+    start,
+    sample,
+    release,           // and then the search begins anew
+    release_and_go_on  // with samples of the same chip
+  };
 
   static constexpr int kHangs_ticks = 30;     // releasing a bus takes 22, any transfer five
   static constexpr int kMostMisses = 4;       // samples in a row that fail in a chip that works
@@ -86,8 +92,10 @@ class Gyro {
     }
     fetched_ = true;
   }
+  /// A transfer is lost by a spike on a line, too, and then the chip goes on as it was set up.
   [[gnu::noinline]] void miss(bool lost) {
-    if (lost || ++misses_ >= kMostMisses) fail(lost);
+    if (++misses_ >= kMostMisses) return fail(lost);
+    if (lost) release(Step::release_and_go_on);
   }
 
   /// In a tick of its own.
@@ -121,6 +129,10 @@ class Gyro {
         return find(at);
       case Step::start:
         return start(at);
+      case Step::release_and_go_on:
+        if (at != Transfer::done) return fail(false);
+        step_ = Step::sample;
+        return;
       default:
         step_ = Step::find;  // released
         pause_ticks_ = kSearch_ticks;
@@ -150,18 +162,21 @@ class Gyro {
   }
 
   /// Nothing was heard of the transfer for too long.
-  [[gnu::noinline]] void hang() { fail(step_ != Step::release); }
+  [[gnu::noinline]] void hang() { fail(step_ != Step::release && step_ != Step::release_and_go_on); }
   /// The chip is lost, or none was found. The search begins anew later.
   [[gnu::noinline]] void fail(bool bus_hangs) {
     reading_.state = found_ ? State::failed : State::absent;
     candidate_ = 0;
-    under_way_ = bus_hangs;
-    busy_ticks_ = 0;
-    step_ = bus_hangs ? Step::release : Step::find;
-    if (bus_hangs)
-      bus_.release();
-    else
-      pause_ticks_ = kSearch_ticks;
+    if (bus_hangs) return release(Step::release);
+    under_way_ = false;
+    step_ = Step::find;
+    pause_ticks_ = kSearch_ticks;
+  }
+  void release(Step why) {
+    step_ = why;
+    under_way_ = true;
+    busy_ticks_ = pause_ticks_ = 0;
+    bus_.release();
   }
 
   B& bus_;

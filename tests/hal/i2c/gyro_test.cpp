@@ -154,6 +154,43 @@ TEST(I2cGyro, OneSampleThatFailsIsLeftOutAndFourInARowAreAFailure) {
   EXPECT_EQ(rig.run(1500).state, State::running) << "found again";
 }
 
+TEST(I2cGyro, ASampleThatIsLostCostsNoMoreThanItsReleaseAndFourInARowAreAFailure) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  rig.run(300);
+  const auto lose_one = [&rig] {
+    const int before = rig.bus.releases;
+    rig.bus.answer = Transfer::lost;
+    for (int tick = 0; tick < 10 && rig.bus.releases == before; ++tick) rig.run(1);
+    rig.bus.answer = Transfer::done;
+    return rig.bus.releases == before + 1;
+  };
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(lose_one());
+    const std::uint64_t lost_us = rig.clock.now;
+    EXPECT_EQ(rig.run(22 + 5).state, State::running) << i;
+    EXPECT_GT(rig.reading.time_us, lost_us) << "22 ticks of the release, and a sample: " << i;
+  }
+  EXPECT_EQ(rig.bus.written.size(), gyro_chips::kFxas21002c.size()) << "not started again";
+  rig.bus.answer = Transfer::lost;
+  EXPECT_EQ(rig.run(4 * (22 + 5)).state, State::failed);
+  rig.bus.answer = Transfer::done;
+  EXPECT_EQ(rig.run(1500).state, State::running) << "found again";
+}
+
+TEST(I2cGyro, ASampleThatIsLostAtLinesThatStayHeldIsAFailure) {
+  Rig rig;
+  plug_fxas(rig.bus);
+  rig.run(300);
+  rig.bus.answer = Transfer::lost;
+  for (int tick = 0; tick < 10 && rig.bus.releases == 0; ++tick) rig.run(1);
+  rig.bus.answer = Transfer::done;
+  rig.bus.hangs = true;
+  EXPECT_EQ(rig.run(22).state, State::failed);
+  rig.bus.hangs = false;
+  EXPECT_EQ(rig.run(1500).state, State::running) << "found again";
+}
+
 TEST(I2cGyro, HalfASampleIsNoSample) {
   Rig rig;
   plug_fxas(rig.bus);
