@@ -58,6 +58,8 @@ class Gyro {
   using State = hal::GyroReading::State;
   enum class Step : std::uint8_t {
     find,
+    ask_bank,     // of a chip that has not said its identity
+    select_bank,  // 0, and then the search begins anew
     start,
     sample,
     release,           // and then the search begins anew
@@ -81,6 +83,8 @@ class Gyro {
   }
   [[gnu::noinline]] void begin_other() {
     if (step_ == Step::find) return bus_.begin_read(address(), chip().id_register, 1);
+    if (step_ == Step::ask_bank) return bus_.begin_read(address(), chip().bank_register, 1);
+    if (step_ == Step::select_bank) return bus_.begin_write(address(), chip().bank_register, 0);
     const Setting& setting = chip().start[setting_];
     bus_.begin_write(address(), setting.number, setting.value);
   }
@@ -127,6 +131,10 @@ class Gyro {
     switch (step_) {
       case Step::find:
         return find(at);
+      case Step::ask_bank:
+        return note_bank(at);
+      case Step::select_bank:
+        return fail(at == Transfer::lost);
       case Step::start:
         return start(at);
       case Step::release_and_go_on:
@@ -149,8 +157,23 @@ class Gyro {
       reading_.state = State::starting;
       reading_.count_nradps = chip().count_nradps;
       reading_.temperature_cC = hal::GyroReading::kNoTemperature;
-    } else if (++candidate_ == kCandidates) {
-      fail(false);
+    } else if (at == Transfer::done && chip().bank_register != GyroChip::kNoBanks) {
+      step_ = Step::ask_bank;
+    } else {
+      find_next();
+    }
+  }
+  void find_next() {
+    step_ = Step::find;
+    if (++candidate_ == kCandidates) fail(false);
+  }
+  /// A start that failed halfway, or a processor that was restarted in it, leaves the chip where its identity cannot be read.
+  void note_bank(Transfer at) {
+    if (at == Transfer::lost) return fail(true);
+    if (at == Transfer::done && bus_.bytes()[0] == chip().start_bank) {
+      step_ = Step::select_bank;
+    } else {
+      find_next();
     }
   }
   void start(Transfer at) {

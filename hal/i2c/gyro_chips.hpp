@@ -29,8 +29,11 @@ struct GyroChip {
   std::uint8_t temperature_at;                       // kNoTemperature: it is not among them
   std::int32_t temperature_16, temperature_zero_cC;  // 0.01 degrees Celsius per count, 2^-16, and at 0
   std::uint32_t count_nradps;
+  /// Of a chip whose registers are in banks: what selects one, and the one that its start selects for a while. The identity is in
+  /// bank 0 only.
+  std::uint8_t bank_register = kNoBanks, start_bank = 0;
 
-  static constexpr std::uint8_t kNoTemperature = 0xFF;
+  static constexpr std::uint8_t kNoTemperature = 0xFF, kNoBanks = 0xFF;
 };
 
 namespace gyro_chips {
@@ -103,7 +106,9 @@ inline constexpr std::array<GyroChip, 3> kGyroChips{{
      6,
      6553600 * 100 / 33387,
      2100,
-     gyro_chips::nradps(1 / 65.5)},
+     gyro_chips::nradps(1 / 65.5),
+     0x7F,
+     0x20},
 }};
 
 }  // namespace astro::i2c

@@ -166,7 +166,8 @@ std::uint8_t Mpu6050::get(std::uint8_t number) {
     case 0x49:
       return 0;  // of a sensor behind it, which there is none
     case 0x00:
-      return 0;  // of other chips the identity, here something else
+    case 0x7F:
+      return 0;  // of other chips the identity and the bank, here something else
     case 0x75:
       return 0x68;
     default:
@@ -215,7 +216,9 @@ std::uint8_t Icm20948::get(std::uint8_t number) {
   if (bank_ == 0 && number == 0x39) return 0x06;  // 1669: 26 degrees
   if (bank_ == 0 && number == 0x3A) return 0x85;
   if (bank_ == 0 && number == 0x3B) return 0;
-  if (bank_ == 0 && number == 0x75) return 0;  // of another chip the identity, here something else
+  if (bank_ == 2 && number == 0x00) return divider_;
+  if (number == 0x75) return 0;  // of another chip the identity, here something else
+  if (number == 0x7F) return static_cast<std::uint8_t>(bank_ << 4);
   fail(SensorProblem::unknown_register, "no driver here reads this register", number, bank_);
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace astro::i2c {
@@ -16,12 +17,14 @@ class FakeBus {
   void begin_read(std::uint8_t address, std::uint8_t from, std::uint8_t count) noexcept {
     begin(address);
     read.clear();
-    for (int i = 0; i < count; ++i) read.push_back(registers[static_cast<std::uint8_t>(from + i)]);
+    for (int i = 0; i < count; ++i) read.push_back(byte_at(static_cast<std::uint8_t>(from + i)));
     count_ = count;
   }
   void begin_write(std::uint8_t address, std::uint8_t number, std::uint8_t value) noexcept {
     begin(address);
+    fails_now_ = written.size() == fails_at;
     written.push_back({number, value});
+    if (number == bank_register && there_ && (!fails_now_ || heard_though_it_fails)) bank = value;
   }
   Transfer advance() noexcept {
     if (hangs && !releasing) return Transfer::busy;
@@ -30,6 +33,7 @@ class FakeBus {
       releasing = false;
       return hangs ? Transfer::lost : Transfer::done;
     }
+    if (std::exchange(fails_now_, false)) return Transfer::lost;
     return there_ ? answer : Transfer::refused;
   }
   std::span<const std::uint8_t> bytes() const noexcept { return {read.data(), count_}; }
@@ -46,9 +50,17 @@ class FakeBus {
   Transfer answer = Transfer::done;
   int calls = 2, releases = 0;
   bool hangs = false, releasing = false;
+  std::uint8_t bank_register = 0;      // 0: no banks
+  std::uint8_t bank = 0;               // the registers are those of bank 0, in any other all read 0
+  std::size_t fails_at = SIZE_MAX;     // this write is lost, the first is 0
+  bool heard_though_it_fails = false;  // by the chip
   std::vector<std::uint8_t> read;
 
  private:
+  std::uint8_t byte_at(std::uint8_t number) {
+    if (bank_register != 0 && number == bank_register) return bank;
+    return bank == 0 ? registers[number] : std::uint8_t{0};
+  }
   void begin(std::uint8_t address) {
     asked.push_back(address);
     there_ = address == chip;
@@ -56,7 +68,7 @@ class FakeBus {
   }
   int calls_left_ = 0;
   std::size_t count_ = 0;
-  bool there_ = false;
+  bool there_ = false, fails_now_ = false;
 };
 static_assert(Bus<FakeBus>);
 
@@ -74,13 +86,13 @@ struct Rig {
   const hal::GyroReading& run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       clock.now += 1000;
-      if (moves)
-        bus.registers[0x06] = static_cast<std::uint8_t>(clock.now / 1000 % 199);  // Z of the FXAS21002C
+      if (moves) bus.registers[moving] = static_cast<std::uint8_t>(clock.now / 1000 % 199);
       reading = gyro.read(clock);
     }
     return reading;
   }
   bool moves = true;
+  std::uint8_t moving = 0x06;  // the lower byte of Z, here of the FXAS21002C
 };
 
 void plug_fxas(FakeBus& bus) {
@@ -99,6 +111,43 @@ TEST(I2cGyro, IsFoundByItsIdentityAtEitherAddressAndStartedFromItsTable) {
   for (std::size_t i = 0; i < rig.bus.written.size(); ++i)
     EXPECT_EQ(rig.bus.written[i],
               (std::pair{gyro_chips::kFxas21002c[i].number, gyro_chips::kFxas21002c[i].value}));
+}
+
+void plug_icm(Rig& rig) {
+  rig.bus.chip = 0x68;
+  rig.bus.bank_register = 0x7F;
+  rig.moving = 0x38;
+  rig.bus.registers = {{0x00, 0xEA}, {0x33, 0x01}, {0x34, 0x02}, {0x35, 0xFF}, {0x36, 0xFE}};
+}
+
+TEST(I2cGyro, AStartThatFailsAtAnyOfItsSettingsSucceedsLater) {
+  for (const bool heard : {false, true})
+    for (std::size_t at = 0; at < gyro_chips::kIcm20948.size(); ++at) {
+      Rig rig;
+      plug_icm(rig);
+      rig.bus.fails_at = at;
+      rig.bus.heard_though_it_fails = heard;
+      EXPECT_EQ(rig.run(3000).state, State::running) << at << ' ' << heard;
+      EXPECT_EQ(rig.reading.rate[0], 0x0102);
+      EXPECT_EQ(rig.bus.releases, 1) << at;
+    }
+}
+
+TEST(I2cGyro, AChipThatARestartHasLeftInAnotherBankIsFound) {
+  Rig rig;
+  plug_icm(rig);
+  rig.bus.bank = 0x20;
+  EXPECT_EQ(rig.run(2000).state, State::running);
+}
+
+TEST(I2cGyro, AStrangerThatLooksLikeAChipInThatBankIsToldBankZeroOnceASearchAtMost) {
+  Rig rig;
+  rig.bus.chip = 0x68;
+  rig.bus.registers = {{0x7F, 0x20}};
+  EXPECT_EQ(rig.run(3000).state, State::absent);
+  for (const auto& write : rig.bus.written)
+    EXPECT_EQ(write, (std::pair<std::uint8_t, std::uint8_t>{0x7F, 0}));
+  EXPECT_LE(rig.bus.written.size(), 3U);
 }
 
 TEST(I2cGyro, TheTemperatureComesWithTheRatesWhereItLiesBesideThem) {
