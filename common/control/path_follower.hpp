@@ -36,6 +36,8 @@ class PathFollower {
 
   /// Begins a path at `pose`, where the robot stands.
   void begin_path(const Pose& pose);
+  /// Goes on with a path that was left off for a while: the last correction is out of date.
+  void resume_path() { correction_ = {}; }
   /// Begins the next segment of the path.
   void begin(const Trapezoid& profile) {
     profile_ = profile;
@@ -51,9 +53,10 @@ class PathFollower {
 
   /// The reference has arrived; the robot may still be settling.
   bool arrived() const { return profile_.done() && !behind(); }
-  /// At the last advance the robot was within half a millimetre and a milliradian of the reference.
+  /// At the last correction, which a drive makes every five ticks, the robot was within half a millimetre and a milliradian of the
+  /// reference.
   bool close() const { return close_; }
-  /// At the last advance: the distance of the reference to the left of the robot, 1e-6 m, and the reference's
+  /// At the last correction: the distance of the reference to the left of the robot, 1e-6 m, and the reference's
   /// heading minus the robot's, 1e-6 rad.
   std::int32_t cross_track_um() const { return cross_um_; }
   std::int32_t heading_error_urad() const { return heading_urad_; }

@@ -46,7 +46,11 @@ void SegmentPath::take_plan(const Trapezoid& profile, std::uint8_t ticket) {
 }
 
 void SegmentPath::begin_at(const Pose& pose, std::uint64_t now_us) {
-  if (!continues_ || strayed(follower_.reference(), pose)) follower_.begin_path(pose);
+  if (!continues_ || strayed(follower_.reference(), pose)) {
+    follower_.begin_path(pose);
+  } else {
+    follower_.resume_path();
+  }
   begin_next(now_us);
 }
 

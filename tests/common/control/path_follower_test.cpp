@@ -184,6 +184,17 @@ TEST(PathFollower, ACorrectionInEveryFifthTickEndsWhereOneInEachDoes) {
   }
 }
 
+TEST(PathFollower, AResumedPathBeginsWithoutTheCorrectionFromBeforeThePause) {
+  const Trapezoid line = planned({3 * kMetre_nm, 0, 0, 0});
+  PathFollower fresh = follower_at({}), resumed = follower_at({});
+  resumed.advance(pose_at(-0.01L, 0, -0.02L));
+  EXPECT_NEAR(resumed.advance({}, false).twist.v_umps, 2 * 10'000, 1) << "k_along 2 1/s, held";
+  resumed.resume_path();
+  for (PathFollower* follower : {&fresh, &resumed}) follower->begin(line);
+  for (int tick = 0; tick < 3; ++tick)
+    EXPECT_EQ(resumed.advance({}, false).twist, fresh.advance({}, false).twist) << tick;
+}
+
 TEST(PathFollower, TheReferenceEndsAtTheExactEndHoweverSeldomItIsCorrected) {
   PathFollower follower = follower_at({});
   for (int side = 0; side < 4; ++side) {
