@@ -195,7 +195,10 @@ void GyroHeading::make_step(const Drive& drive) {
 }
 
 void GyroHeading::step_filter() {
-  if (std::exchange(partial_, false)) return;
+  if (std::exchange(partial_, false)) {
+    worst_ = State::running;
+    return;
+  }
   const bool good = worst_ == State::running;
   // A saturated gyro says that the robot turns at least so far. If that is further than the wheels say, it is the slip that must
   // not be missed: a hard kick.

@@ -291,6 +291,24 @@ TEST(GyroHeading, APoseThatIsSetIsThePoseOfBoth) {
   EXPECT_NEAR(robot.fused_rad(), std::numbers::pi / 2, 0.2 * kDegree_rad);
 }
 
+TEST(GyroHeading, AFaultInAStepThatIsLeftOutIsNotOneOfTheNextStep) {
+  GyroRobot robot(robot_with_gyro(), with_gyro());
+  robot.run_ms(2000);
+  robot.board.gyro().set_fault(sim::GyroFault::silent);
+  robot.run_ms(100);
+  ASSERT_EQ(robot.fused().gyro, protocol::GyroState::silent);
+  const auto to_end_of_step = [&robot] {
+    do robot.run_ms(1);
+    while (robot.drive().phase() != 2);  // in which the filter takes the step
+  };
+  to_end_of_step();
+  robot.board.gyro().set_fault(sim::GyroFault::none);
+  robot.state().set_pose({});
+  to_end_of_step();  // begun within the ten ticks: left out
+  to_end_of_step();
+  EXPECT_EQ(robot.fused().gyro, protocol::GyroState::running);
+}
+
 TEST(GyroHeading, IsTheOdometryIfNoGyroIsUsed) {
   GyroRobot robot(robot_with_gyro(), ParameterSet::defaults());
   robot.run_ms(2000);
