@@ -111,7 +111,7 @@ TEST_F(RecordingSentences, TellWhatIsWrongWithAFolderOfRecordings) {
        "stub/cw-1.mcap is not a recording of a run (it has no record astrolabe.run): name a recording made "
        "by Astrolabe"},
       {"damaged", "calibrate runs flipped",
-       "flipped/cw-1.mcap is damaged (the data have a wrong checksum: found at byte 46952): copy it again "
+       "flipped/cw-1.mcap is damaged (the data have a wrong checksum: found at byte 43554): copy it again "
        "from where it was recorded, or record the run again; --damaged uses what can be read of it"},
       {"a name that is left out and not there", "calibrate runs one-way --without cw-7",
        "there is no recording 'cw-7' in one-way to leave out: it holds cw-1"},
