@@ -113,7 +113,7 @@ class Gyro {
     const std::size_t place = chip().rate_at;
     const std::array<std::int16_t, 3> rate{word(place), word(place + 2), word(place + 4)};
     // A chip that has lost its power for a moment acknowledges everything, but does not measure: its registers are 0.
-    if (hal::same_rate(rate, {})) [[unlikely]]
+    if ((rate[0] | rate[1] | rate[2]) == 0) [[unlikely]]
       return miss(false);
     misses_ = 0;
     same_ = hal::same_rate(rate, reading_.rate) ? same_ + 1 : 0;

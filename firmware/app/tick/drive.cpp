@@ -284,7 +284,7 @@ Drive::SetPoint Drive::set_point_of_ramp() {
 }
 
 Drive::SetPoint Drive::set_point_of_path() {
-  const PathFollower::Command command = path_.advance(odometry_.pose(), phase_ % kCorrection_ticks == 0);
+  const PathFollower::Command command = path_.advance(odometry_.pose(), corrects_path());
   if (path_.arrived() && path_.settled(wheels_.stopped()) && phase_ == kBoundaryPhase) end_segment();
   return {within_limits(command.twist, limits_), command.acceleration};
 }

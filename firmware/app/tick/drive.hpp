@@ -113,6 +113,8 @@ class Drive {
 
   /// Which of ten ticks the last one was.
   std::uint32_t phase() const { return phase_; }
+  /// Whether a path is corrected in this tick.
+  bool corrects_path() const { return phase_ % kCorrection_ticks == 0; }
   State state() const { return supervisor_.state(); }
   bool armed() const { return within(state(), states(State::armed, State::driving, State::stopping)); }
   /// The motors drive the wheels: a command, a segment or a ramp to rest is under way. The wheels of a robot

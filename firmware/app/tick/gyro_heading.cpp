@@ -63,7 +63,13 @@ void GyroHeading::configure(const Configuration& configuration, const Drive& dri
   begin_at(drive);
 }
 
-void GyroHeading::pose_was_set(const Drive& drive) { begin_at(drive); }
+/// The tick is held meanwhile, so that what takes long is left to the next step.
+void GyroHeading::pose_was_set(const Drive& drive) {
+  fused_.set_pose(drive.pose());
+  fused_us_ = 0;
+  stepped_ = false;
+  begins_ = true;
+}
 
 void GyroHeading::begin_at(const Drive& drive) {
   fused_.set_pose(drive.pose());
@@ -80,6 +86,7 @@ void GyroHeading::begin_at(const Drive& drive) {
   fused_us_ = 0;
   stepped_ = false;
   partial_ = true;
+  begins_ = false;
 }
 
 bool GyroHeading::take_slip(UnseenTurn& slip) {
@@ -94,8 +101,11 @@ bool GyroHeading::advance(const hal::GyroReading& reading, const Drive& drive, s
   ++held_ticks_;
   switch (drive.phase()) {
     case kFilterPhase:
+      if (begins_) [[unlikely]]
+        begin_at(drive);
       hold();
-      if (reading.state != hal::GyroReading::State::running) [[unlikely]]
+      works_ = reading.state == hal::GyroReading::State::running;
+      if (!works_) [[unlikely]]
         note(of_board(reading.state));
       make_step(drive);
       return false;
@@ -225,6 +235,8 @@ void GyroHeading::step_watch(std::uint64_t now_us) {
 }
 
 void GyroHeading::step_pose(const Drive& drive, std::uint64_t now_us) {
+  if (begins_) [[unlikely]]
+    return;
   const std::int32_t left = drive.wheels().left_counts(), right = drive.wheels().right_counts();
   const std::int64_t travel = mul_low(left_half_travel_, wrapping_difference(left, left_counts_)) +
                               mul_low(right_half_travel_, wrapping_difference(right, right_counts_));

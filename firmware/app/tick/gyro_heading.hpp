@@ -48,9 +48,16 @@ class GyroHeading {
   /// The parameters name an axis.
   bool in_use() const { return axis_ != 0; }
 
-  /// Called once a tick, after the drive. Precondition: in_use(). True in one tick of ten while a slip goes on that the parameters
-  /// let stop the robot, so that one which began without power is still seen by a robot that is given power.
+  /// Called once a tick, after the drive, or else wait() is. Precondition: in_use(). True in one tick of ten while a slip goes
+  /// on that the parameters let stop the robot, so that one which began without power is still seen by a robot that is given power.
   bool advance(const hal::GyroReading& reading, const Drive& drive, std::uint64_t now_us);
+
+  /// Whether a gyro that works is not read in this tick, which is long enough without it; then wait() is called instead of advance().
+  bool waits_in(const Drive& drive) const { return works_ && (drive.corrects_path() || filters_in(drive)); }
+  void wait(const Drive& drive) {
+    ++held_ticks_;
+    if (filters_in(drive)) step_filter();
+  }
 
   /// The robot's pose was set: this one is the same.
   void pose_was_set(const Drive& drive);
@@ -81,6 +88,7 @@ class GyroHeading {
   Wheels wheels_of(const Drive& drive);
   Wheels wheels_at_lag() const;
   void make_step(const Drive& drive);
+  static bool filters_in(const Drive& drive) { return drive.phase() == kFilterPhase + 1; }
   void step_filter();
   void step_watch(std::uint64_t now_us);
   void step_pose(const Drive& drive, std::uint64_t now_us);
@@ -103,6 +111,8 @@ class GyroHeading {
   HeadingStep step_;
   bool stepped_ = false;  // the filter was advanced with step_
   bool partial_ = true;   // the present step began within the ten ticks, and is left out
+  bool begins_ = false;   // the pose was set, and no step has begun since
+  bool works_ = false;    // the board says so of the gyro
   std::uint32_t count_nradps_ = 0;
   std::int64_t count_48_ = 0;  // turn of a count held for a tick, 2^-48 turn
   std::int32_t scale_30_ = 1 << 30, lag_ticks_ = 0;

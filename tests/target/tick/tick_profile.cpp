@@ -118,6 +118,7 @@ void TickProfile::finish() {
     row[kParts] += now_[i];
   }
   row[kParts + 1] = now_[control] + now_[odometry] + now_[safety];
+  if (row[kParts] > worst_[kParts]) longest_ = row;
   for (std::size_t i = 0; i < row.size(); ++i) {
     worst_[i] = std::max(worst_[i], row[i]);
     sum_[i] += row[i];
@@ -131,9 +132,9 @@ TickProfile::Cost TickProfile::cost(std::size_t row) const {
 }
 
 void TickProfile::print(std::uint32_t bar) const {
-  fmt::print("instructions of {} control ticks   worst     mean\n", ticks_);
+  fmt::print("instructions of {} control ticks   worst     mean   in the longest\n", ticks_);
   for (std::size_t i = 0; i < kParts; ++i)
-    fmt::print("  {:<32} {:>6} {:>8.1f}\n", kNames[i], cost(i).worst, cost(i).mean);
+    fmt::print("  {:<32} {:>6} {:>8.1f} {:>7}\n", kNames[i], cost(i).worst, cost(i).mean, longest_[i]);
   fmt::print("  {:<32} {:>6} {:>8.1f}\n", "whole tick", whole().worst, whole().mean);
   fmt::print("  {:<32} {:>6} {:>8.1f}   of {}\n", "control + odometry + safety", budgeted().worst,
              budgeted().mean, bar);

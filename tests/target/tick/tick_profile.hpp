@@ -64,6 +64,7 @@ class TickProfile {
   Counts now_{};
   bool in_tick_ = false;
   std::uint64_t ticks_ = 0;
+  std::array<std::uint32_t, kParts + 2> longest_{};  // the parts of the longest tick
   std::array<std::uint32_t, kParts + 2> worst_{};
   std::array<std::uint64_t, kParts + 2> sum_{};
 };
