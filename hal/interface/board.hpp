@@ -151,8 +151,8 @@ constexpr bool same_rate(const std::array<std::int16_t, 3>& a, const std::array<
 
 /// A rate gyro of three axes, fixed to the robot's body in any way. Optional: a board without one has no `gyro()`, and then
 /// its firmware no code for it, or one that says `absent`.
-///   read()  the newest sample. Never waits, and begins the fetching of the next one if the board has to do that. Tick only, and in
-///           each tick once, because a board may count its time in calls
+///   read()  the newest sample. Never waits, and begins the fetching of the next one if the board has to do that. Tick only, and
+///           in each tick at most once, because a board may count its time in calls
 template <class T>
 concept Gyro = requires(T& gyro) {
   { gyro.read() }

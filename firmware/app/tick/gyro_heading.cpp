@@ -1,6 +1,7 @@
 #include "firmware/app/tick/gyro_heading.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "common/fixed/multiply.hpp"
@@ -46,6 +47,7 @@ void GyroHeading::configure(const Configuration& configuration, const Drive& dri
   filter_.configure(configuration.filter);
   watch_.configure(configuration.filter);
   axis_ = configuration.axis;
+  up_ = in_use() ? static_cast<std::size_t>(std::abs(axis_) - 1) : 0;
   scale_30_ = configuration.scale_30;
   lag_ticks_ = configuration.lag_ticks;
   left_half_travel_ = configuration.left_half_travel;
@@ -144,8 +146,7 @@ void GyroHeading::take_sample(const hal::GyroReading& reading) {
   rate_ = reading.rate;
   temperature_cC_ = reading.temperature_cC;
   if (reading.count_nradps != count_nradps_) note_scale(reading.count_nradps);
-  about_up_ =
-      axis_ > 0 ? rate_[static_cast<std::size_t>(axis_ - 1)] : -rate_[static_cast<std::size_t>(-axis_ - 1)];
+  about_up_ = axis_ > 0 ? rate_[up_] : -rate_[up_];
   of_sample_ = same_ >= kFrozen_samples                               ? State::frozen
                : exceeds(about_up_, hal::GyroReading::kSaturated - 1) ? State::saturated
                                                                       : State::running;

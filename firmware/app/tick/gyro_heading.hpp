@@ -95,6 +95,7 @@ class GyroHeading {
   void begin_at(const Drive& drive);
 
   std::int32_t axis_ = 0;  // of the sensor, 1 to 3; negative: it points down; 0: the gyro is not used
+  std::size_t up_ = 0;     // where that axis stands in a sample
   std::int32_t sum_ = 0;   // of the readings in this step, counts
   State state_ = State::off, worst_ = State::off;
   std::uint64_t sample_us_ = 0;
