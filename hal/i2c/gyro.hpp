@@ -70,6 +70,7 @@ class Gyro {
   static constexpr int kMostMisses = 4;       // samples in a row that fail in a chip that works
   static constexpr int kFrozen_samples = 40;  // noise moves some axis in each, in a chip that works
   static constexpr int kSearch_ticks = 1000;  // between two searches
+  static constexpr int kPowerUp_ticks = 100;  // until the slowest chip answers: MPU-6050, data sheet 3.4, 6.2
   static constexpr std::size_t kCandidates = 2 * kGyroChips.size();
 
   const GyroChip& chip() const { return kGyroChips[candidate_ / 2]; }
@@ -208,7 +209,7 @@ class Gyro {
   bool under_way_ = false;
   bool fetched_ = false;  // a sample that is not decoded yet
   bool found_ = false;    // since the start of the board
-  int pause_ticks_ = 0, busy_ticks_ = 0;
+  int pause_ticks_ = kPowerUp_ticks, busy_ticks_ = 0;
   std::size_t candidate_ = 0, setting_ = 0;
   int misses_ = 0, same_ = 0;
 };

@@ -33,6 +33,19 @@ class GyroContract : public testing::Test {
     }
     return reading;
   }
+  /// Reads until the board says so of its gyro, for so long at most.
+  State until(State state, int at_most_ms) {
+    State now = read().state;
+    for (int ms = 0; now != state && ms < at_most_ms; ++ms) now = after_ms(1).state;
+    return now;
+  }
+  /// A gyro that measures, and of whose start nothing is left in its low pass.
+  void start() {
+    until(State::running, 500);
+    after_ms(kSettles_ms);
+  }
+  static constexpr int kSettles_ms = 40;  // eight times the slowest low pass
+
   double rate_radps(const hal::GyroReading& reading, std::size_t axis) const {
     return reading.rate[axis] * 1e-9 * reading.count_nradps;
   }
@@ -42,18 +55,20 @@ class GyroContract : public testing::Test {
 TYPED_TEST_SUITE_P(GyroContract);
 
 TYPED_TEST_P(GyroContract, RunsWithinHalfASecond) {
-  EXPECT_EQ(this->after_ms(500).state, hal::GyroReading::State::running);
+  EXPECT_EQ(this->until(hal::GyroReading::State::running, 500), hal::GyroReading::State::running);
 }
 
 TYPED_TEST_P(GyroContract, SaysTheRateAboutItsOwnAxes) {
-  for (const double rate_radps : {0.0, 1.0, -2.0, 8.0}) {
+  this->start();
+  for (const double rate_radps : {0.0, -2.0, 8.0}) {
     this->rig.turn_body(rate_radps);
-    this->after_ms(500);
+    this->after_ms(this->kSettles_ms);
     double sum[3] = {};
-    constexpr int kSamples = 200;
-    for (int i = 0; i < kSamples; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        sum[axis] += this->rate_radps(this->after_ms(5), axis) / kSamples;
+    constexpr int kSamples = 20;
+    for (int i = 0; i < kSamples; ++i) {
+      const hal::GyroReading reading = this->after_ms(5);
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += this->rate_radps(reading, axis) / kSamples;
+    }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // A sensor's offset at rest is at most 0.06 rad/s, its scale good to 1 % as it comes from its maker.
       const double expected = axis == this->rig.up() ? rate_radps : 0;
@@ -63,15 +78,16 @@ TYPED_TEST_P(GyroContract, SaysTheRateAboutItsOwnAxes) {
 }
 
 TYPED_TEST_P(GyroContract, SaturatesWithoutWrapping) {
+  this->start();
   for (const double rate_radps : {30.0, -30.0}) {
     this->rig.turn_body(rate_radps);
-    const int counts = this->after_ms(500).rate[this->rig.up()];
+    const int counts = this->after_ms(this->kSettles_ms).rate[this->rig.up()];
     EXPECT_GE(rate_radps > 0 ? counts : -counts, hal::GyroReading::kSaturated);
   }
 }
 
 TYPED_TEST_P(GyroContract, EachSampleHasATimeOfItsOwnAndComesOften) {
-  this->after_ms(500);
+  this->start();
   std::uint64_t last_us = this->read().time_us;
   int samples = 0;
   for (int ms = 0; ms < 200; ++ms) {
@@ -85,11 +101,11 @@ TYPED_TEST_P(GyroContract, EachSampleHasATimeOfItsOwnAndComesOften) {
 }
 
 TYPED_TEST_P(GyroContract, AGyroThatIsUnpluggedStopsRunningAndComesBack) {
-  this->after_ms(500);
+  this->start();
   this->rig.plug_gyro(false);
-  EXPECT_EQ(this->after_ms(500).state, hal::GyroReading::State::failed);
+  EXPECT_EQ(this->until(hal::GyroReading::State::failed, 500), hal::GyroReading::State::failed);
   this->rig.plug_gyro(true);
-  EXPECT_EQ(this->after_ms(3000).state, hal::GyroReading::State::running);
+  EXPECT_EQ(this->until(hal::GyroReading::State::running, 3000), hal::GyroReading::State::running);
 }
 
 TYPED_TEST_P(GyroContract, ABoardWhoseGyroIsNotThereSaysSo) {

@@ -138,7 +138,7 @@ TEST_P(ThreeMetreSquare, ClosesInItsOwnOdometry) {
   const std::array<std::array<double, 2>, 4> corners{
       {{0, 0}, {kSide_m, 0}, {kSide_m, sense * kSide_m}, {0, sense * kSide_m}}};
   double cross_m = 0;
-  rig.run_ms(2);  // planned, begun
+  rig.run_ms(11);  // planned, and begun in one tick of ten
   while (rig.drive().running_tag() != 0) {
     rig.step();
     const int tag = rig.drive().running_tag();
@@ -162,7 +162,7 @@ TEST_P(ThreeMetreSquare, ClosesInItsOwnOdometry) {
 TEST(Control, ALineOfTenMetresIsStraightInItsOwnOdometry) {
   DriveRig rig;
   ASSERT_TRUE(rig.add({.length_nm = 10'000'000'000, .speed_umps = 500'000}));
-  rig.run_ms(2);  // planned, begun
+  rig.run_ms(11);  // planned, and begun in one tick of ten
   double cross_m = 0;
   while (rig.drive().running_tag() != 0) {
     rig.step();

@@ -23,18 +23,19 @@ class LeftAlone : public testing::Test {
  protected:
   protocol::Status status() { return desk.client.request(protocol::GetStatus{}); }
 
-  double speed_mps() {
+  /// Mean of so many milliseconds.
+  double speed_mps(int ms = 1) {
     const sim::Pose a = desk.robot->board().truth();
-    desk.robot->step();
+    for (int i = 0; i < ms; ++i) desk.robot->step();
     const sim::Pose b = desk.robot->board().truth();
-    return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) / 0.001;
+    return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) / (0.001 * ms);
   }
 
   void get_moving() {
     desk.client.request(protocol::Arm{});
     desk.client.request(robot::line(50, {0.5, 0}).front());
     desk.client.pump(std::chrono::seconds(2));
-    ASSERT_NEAR(speed_mps(), 0.5, 0.02);
+    ASSERT_NEAR(speed_mps(20), 0.5, 0.02);  // in a single millisecond its ripple is 3 % of it (1 sigma)
   }
 
   /// Steps of a millisecond without the host, until the robot has really stopped; at most 5 s.

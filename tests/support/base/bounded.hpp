@@ -7,12 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <vector>
 
 /// What a piece of work takes at most, measured in a child process of its own.
 namespace astro::support {
@@ -28,13 +31,35 @@ struct Taken {
   std::string complaint;       // what the work threw; "" if nothing
   bool ended = false;          // by itself, not by a signal, and no expectation failed in it
   std::size_t peak_bytes = 0;  // of memory, beyond what the process had at the start
-  double cpu_s = 0;
+  double cpu_s = 0;            // as on a quiet machine
 };
+
+/// How many times longer work takes now than on a quiet machine, at least 1: processors that share a core, caches and memory with
+/// other work are slower than alone, in processor seconds, too. It reads a million numbers from text into new memory.
+inline double slowness() {
+  constexpr double kQuiet_s = 0.030;  // of the machine that the limits were set on
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += std::to_string(i * 0.37) + ",";
+  const auto cpu_s = [] {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  const double start_s = cpu_s();
+  std::vector<double> numbers;
+  for (int round = 0; round < 1000; ++round)
+    for (const char* at = text.data(); at != text.data() + text.size();) {
+      const auto read = std::from_chars(at, text.data() + text.size(), numbers.emplace_back());
+      at = read.ptr + 1;
+    }
+  return std::max(1.0, (cpu_s() - start_s) / kQuiet_s);
+}
 
 /// Runs `work` in a copy of this process whose address space may grow by 1 GiB, so that work without a bound
 /// ends in std::bad_alloc and not in the machine's swap; ends it after 60 s. Prints the figures.
 template <class Work>
 Taken measured_once(Work work) {
+  const double slow_before = slowness();
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();
@@ -82,10 +107,12 @@ Taken measured_once(Work work) {
     taken.peak_bytes = std::stoull(text);
     taken.complaint = text.substr(blank + 1);
   }
-  taken.cpu_s = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-  std::cout << "  " << taken.peak_bytes / 1048576 << " MiB, " << taken.cpu_s
-            << " s: " << taken.complaint.substr(0, 300) << '\n';
+  const double slow = (slow_before + slowness()) / 2;
+  taken.cpu_s = (static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                 1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec)) /
+                slow;
+  std::cout << "  " << taken.peak_bytes / 1048576 << " MiB, " << taken.cpu_s << " s on a machine " << slow
+            << " times slower than quiet: " << taken.complaint.substr(0, 300) << '\n';
   return taken;
 }
 
