@@ -111,7 +111,7 @@ def encode(message: Message, request_id: int) -> bytes:
 
 
 class _Reader:
-    """Takes fields off the front of a body. A value that is not allowed is noted, not raised, because the length is judged first."""
+    """Takes fields off the front of a body. A value that is not allowed is noted and raised last: the length is judged first."""
 
     def __init__(self, message: str, body: bytes) -> None:
         self._message, self._body, self._at = message, body, HEADER_SIZE

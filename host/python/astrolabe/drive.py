@@ -33,8 +33,8 @@ class Drive:
     """Arms the robot when its block begins; brings it to rest and disarms it when the block ends, however it ends.
 
     Inside the block somebody has to be at work for the robot: run(), hold_velocity(), wait() and stop() give it the signs
-    of life that it needs. A program that computes or sleeps longer than the robot's command time-out (0.2 s) while the robot moves stops
-    it with the fault command_timeout.
+    of life that it needs. A program that computes or sleeps longer than the robot's command time-out (0.2 s) while the robot
+    moves stops it with the fault command_timeout or link_lost.
 
     Raises, at any call:
         DriveFault: a fault was latched, and the robot has stopped by itself.
