@@ -14,6 +14,7 @@ the calibration.
 from astrolabe.drive import Drive
 from astrolabe.errors import (
     AstrolabeError,
+    DataError,
     DriveEnded,
     DriveFault,
     InvalidValue,
@@ -29,7 +30,7 @@ from astrolabe.recording import Recording, Sample
 from astrolabe.robot import Robot, connect
 
 __all__ = [
-    "AstrolabeError", "Drive", "DriveEnded", "DriveFault", "FAULT_HELP", "Fault", "InvalidValue", "LinkLost", "Mode",
+    "AstrolabeError", "DataError", "Drive", "DriveEnded", "DriveFault", "FAULT_HELP", "Fault", "InvalidValue", "LinkLost", "Mode",
     "NotStopped", "Parameter", "Parameters", "Path", "PortError", "Recording", "Robot", "RobotRefused", "Sample", "arc",
     "circle", "connect", "line", "spin", "square",
 ]

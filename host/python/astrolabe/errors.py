@@ -53,3 +53,15 @@ class NotStopped(AstrolabeError):
 
 class InvalidValue(AstrolabeError, ValueError):
     """A number, name or text that is not possible; nothing was sent."""
+
+
+class DataError(AstrolabeError):
+    """What the libraries say against drives, recordings and calibrations.
+
+    Attributes:
+        values: the names and values in the sentence
+    """
+
+    def __init__(self, sentence: str, values: list[str] | None = None) -> None:
+        super().__init__(sentence)
+        self.values = values or []
