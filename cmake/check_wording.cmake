@@ -6,6 +6,7 @@ set(count 0)
 
 # Texts in which the program's name is part of a format or of a protocol, so that it cannot change. File:text.
 set(format_constants
+  "host/python/native/main.cpp:astrolabe.errors"          # the module with the package's exceptions
   "host/recording/run_writer.cpp:astrolabe"               # the writing library, in the header of an MCAP file
   "host/recording/run_metadata.hpp:astrolabe.run"         # the metadata record of a run
   "host/formats/messages/telemetry.hpp:astrolabe_msgs/msg/Telemetry"

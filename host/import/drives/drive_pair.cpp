@@ -85,6 +85,17 @@ std::string assumed_in(const std::vector<Remark>& remarks) {
   return "";
 }
 
+/// Wheels that were worked out from a robot's odometry fit it perfectly.
+void refuse_own_odometry(const DriveFiles& files, const std::string& topic, const ImportedTruth& truth) {
+  const std::string& id = truth.track.id;
+  if (topic.empty() || files.wheels != files.truth || (id != topic && !id.starts_with(topic + ' '))) return;
+  throw Error(files.wheels.string() +
+                  ": both the wheels and the ground truth would be the robot's own odometry " + topic,
+              ImportProblem::odometry_is_truth, {topic});
+}
+
+}  // namespace
+
 PairedDrive pair_up(const std::string& name, const DriveFiles& files, ImportedWheels wheels,
                     const ImportedTruth& truth, const RobotGeometry& given, const ImportChoices& choices) {
   const AssumedTimeUnit wheel_times{files.wheels.string(), assumed_in(wheels.track.remarks)},
@@ -109,17 +120,6 @@ PairedDrive pair_up(const std::string& name, const DriveFiles& files, ImportedWh
   drive.report.summary += summary_of(truth, drive.report.floor);
   return drive;
 }
-
-/// Wheels that were worked out from a robot's odometry fit it perfectly.
-void refuse_own_odometry(const DriveFiles& files, const std::string& topic, const ImportedTruth& truth) {
-  const std::string& id = truth.track.id;
-  if (topic.empty() || files.wheels != files.truth || (id != topic && !id.starts_with(topic + ' '))) return;
-  throw Error(files.wheels.string() +
-                  ": both the wheels and the ground truth would be the robot's own odometry " + topic,
-              ImportProblem::odometry_is_truth, {topic});
-}
-
-}  // namespace
 
 PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices,
                    RecordedSizes& geometry) {

@@ -30,4 +30,8 @@ struct PairedDrive {
 PairedDrive paired(const std::string& name, const DriveFiles& files, const ImportChoices& choices,
                    RecordedSizes& geometry);
 
+/// Pairs wheels and ground truth that were read already. `files` is how messages call them.
+PairedDrive pair_up(const std::string& name, const DriveFiles& files, ImportedWheels wheels,
+                    const ImportedTruth& truth, const RobotGeometry& given, const ImportChoices& choices);
+
 }  // namespace astro::importing

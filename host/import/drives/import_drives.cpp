@@ -11,6 +11,7 @@
 #include "host/import/drives/wheel_doubts.hpp"
 #include "host/import/drives/wheel_run.hpp"
 #include "host/import/wheels/counter_wraps.hpp"
+#include "host/truth/floor/lost_tracking.hpp"
 
 namespace astro::importing {
 namespace {
@@ -197,6 +198,30 @@ ImportedDrives collected(std::vector<PairedDrive> drives, const std::vector<std:
   return all;
 }
 
+/// Wheels that are exchanged and reversed turn the robot as the truth does. Nothing but their direction shows it.
+void refuse_backward(const std::vector<PairedDrive>& drives, const std::vector<std::string>& names,
+                     const ImportChoices& choices) {
+  const bool backward =
+      std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drove_backward(drive.run); });
+  if (backward && !choices.drives_backward && !drives.empty())
+    throw Error("by its wheels the robot drove backward in " +
+                    (drives.size() == 1 ? "'" + names.front() + "'" : "all drives"),
+                ImportProblem::drives_backward, {names.front()});
+}
+
+template <class Sample>
+void require_times(const std::vector<Sample>& samples, const std::string& what) {
+  if (samples.size() < 2)
+    throw Error(what + " must have at least two samples, and has " + std::to_string(samples.size()),
+                ImportProblem::no_poses);
+  const auto step_back = std::adjacent_find(
+      samples.begin(), samples.end(), [](const auto& a, const auto& b) { return !(a.time_ns < b.time_ns); });
+  if (step_back != samples.end())
+    throw Error("the times of " + what + " must increase, and do not after row " +
+                    std::to_string(step_back - samples.begin() + 1),
+                ImportProblem::times_not_increasing);
+}
+
 }  // namespace
 
 ImportedDrives import_wheels(std::span<const fs::path> wheels, const ImportChoices& choices) {
@@ -211,14 +236,27 @@ ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoi
   refuse_twins(files);
   AllDrives reader(paired, files, choices);
   std::vector<PairedDrive> drives = reader.read();
-  const std::vector<std::string>& names = reader.names();
-  // Wheels that are exchanged and reversed turn the robot as the truth does. Nothing but their direction shows it.
-  const bool backward =
-      std::all_of(drives.begin(), drives.end(), [](const auto& drive) { return drove_backward(drive.run); });
-  if (backward && !choices.drives_backward && !files.empty())
-    throw Error("by its wheels the robot drove backward in " +
-                    (files.size() == 1 ? "'" + names.front() + "'" : "all drives"),
-                ImportProblem::drives_backward, {names.front()});
+  refuse_backward(drives, reader.names(), choices);
+  return collected(std::move(drives), reader.names());
+}
+
+ImportedDrives import_held(std::vector<HeldDrive> held, const ImportChoices& choices) {
+  std::vector<PairedDrive> drives;
+  std::vector<std::string> names;
+  for (HeldDrive& one : held) {
+    try {
+      require_times(one.wheels.track.samples, "the wheels");
+      require_times(one.truth.samples, "the ground truth");
+      ImportedTruth truth{std::move(one.truth), {}};
+      truth.lost = truth::mark_lost(truth.track);
+      drives.push_back(
+          pair_up(one.name, {one.name, one.name}, std::move(one.wheels), truth, choices.geometry, choices));
+    } catch (const Error& error) {
+      throw Error(error.in("'" + one.name + "': "));
+    }
+    names.push_back(one.name);
+  }
+  refuse_backward(drives, names, choices);
   return collected(std::move(drives), names);
 }
 

@@ -59,4 +59,15 @@ ImportedDrives import_drives(std::span<const DriveFiles> files, const ImportChoi
 /// The same for drives whose truth comes from elsewhere; the runs have no truth.
 ImportedDrives import_wheels(std::span<const std::filesystem::path> wheels, const ImportChoices& choices);
 
+/// A drive that is in memory: what another program of this process measured.
+struct HeldDrive {
+  std::string name;
+  ImportedWheels wheels;
+  truth::BodyTrack truth;
+};
+
+/// The same for such drives. Throws astro::Error naming the drive also if it has fewer than two samples of wheels or of ground
+/// truth, or if their times do not increase.
+ImportedDrives import_held(std::vector<HeldDrive> held, const ImportChoices& choices);
+
 }  // namespace astro::importing

@@ -53,6 +53,7 @@ enum class ImportProblem {
   odometry_of_commands,
   joints_backward,
   no_poses,
+  times_not_increasing,
   time_unit_doubtful
 };
 

@@ -9,25 +9,13 @@
 
 #include "common/protocol/frame.hpp"
 #include "common/protocol/messages.hpp"
+#include "tests/common/protocol/enum_name.hpp"
 
 namespace astro::protocol {
 namespace {
 
 constexpr std::string_view kBegin = "<!-- generated from the schema: begin -->\n";
 constexpr std::string_view kEnd = "<!-- generated from the schema: end -->\n";
-
-template <class T>
-constexpr std::string_view enum_name() {
-  if constexpr (std::is_same_v<T, Mode>) return "Mode";
-  if constexpr (std::is_same_v<T, SegmentKind>) return "SegmentKind";
-  if constexpr (std::is_same_v<T, SegmentOutcome>) return "SegmentOutcome";
-  if constexpr (std::is_same_v<T, ParameterKind>) return "ParameterKind";
-  if constexpr (std::is_same_v<T, ResetCause>) return "ResetCause";
-  if constexpr (std::is_same_v<T, ErrorCode>) return "ErrorCode";
-  if constexpr (std::is_same_v<T, Fault>) return "Fault";
-  if constexpr (std::is_same_v<T, GyroState>) return "GyroState";
-  return "";
-}
 
 template <std::integral T>
 std::string type_text(T*) {

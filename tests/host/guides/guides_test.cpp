@@ -41,6 +41,7 @@ const std::vector<Setting>& settings() {
       {.page = "host/guides/ros2.md",
        .tracker = true,
        .instead = {{"--truth ros2:/ASTRO/pose", "--truth sim"}, kShortDrives}},
+      {.page = "host/guides/python.md", .instead = {{"python3 ", ASTROLABE_PYTHON " "}}},
       {.page = "host/guides/film.md", .absent = {"drives.mp4", "--truth film"}},
       {.page = "host/guides/tape.md", .absent = {"--truth manual"}},
       {.page = "host/guides/wall.md", .absent = {"--truth wall"}},
@@ -71,9 +72,16 @@ bool serves(const std::string& command) {
 /// Programs of a reader's computer that need not be on this one. A word that is on neither list fails the test.
 bool is_for_the_reader(const std::string& command) {
   const std::string program = command.substr(0, command.find(' '));
-  for (const char* other : {"ros2", "./dev", "git", "export", "sudo", "cd", "apt"})
+  for (const char* other : {"ros2", "./dev", "git", "export", "sudo", "cd", "apt", "pip"})
     if (program == other) return true;
   return false;
+}
+
+bool has_python() {
+  return support::Program({"/bin/bash", "-c",
+                           "PYTHONPATH='" ASTROLABE_PYTHON_PATH "' " ASTROLABE_PYTHON
+                           " -c 'import serial, matplotlib, astrolabe.calibration'"})
+             .wait() == 0;
 }
 
 class Page : public testing::TestWithParam<Setting> {
@@ -82,8 +90,9 @@ class Page : public testing::TestWithParam<Setting> {
     const fs::path bin = fs::path(ASTROLABE_PROGRAM).parent_path();
     return {"/bin/bash", "-c",
             // No loader, so that no test ever flashes a board of this computer.
-            "export ASTROLABE_LOADER=/bin/false; cd '" + stage.folder().string() + "' && PATH='" +
-                bin.string() + "':$PATH && exec 2>&1 && " + stage.here(command)};
+            "export ASTROLABE_LOADER=/bin/false MPLBACKEND=Agg PYTHONPATH='" ASTROLABE_PYTHON_PATH "'; cd '" +
+                stage.folder().string() + "' && PATH='" + bin.string() + "':$PATH && exec 2>&1 && " +
+                stage.here(command)};
   }
   static support::Program start(const Stage& stage, const std::string& command) {
     return support::Program(line(stage, command));
@@ -129,6 +138,9 @@ class Page : public testing::TestWithParam<Setting> {
 TEST_P(Page, ShowsWhatHappens) {
   const std::string page = text_of(support::checkout() / GetParam().page);
   ASSERT_FALSE(page.empty());
+  if (page.find("python3 ") != page.npos && !has_python())
+    GTEST_SKIP()
+        << "Python's modules are missing: pybind11-dev before the build, python3-serial, python3-matplotlib";
   const Stage stage(GetParam());
   std::vector<std::unique_ptr<support::Program>> beside;  // those that the page starts with &
   for (const Command& command : commands_of(page)) {
@@ -138,7 +150,7 @@ TEST_P(Page, ShowsWhatHappens) {
     };
     const std::string program = command.text.substr(0, command.text.find(' '));
     if (is_for_the_reader(command.text)) continue;
-    if (!command.is_ours() && program != "printf") {
+    if (!command.is_ours() && program != "printf" && program != "cat" && program != "python3") {
       // Formulas and the like: nothing that anybody could type.
       EXPECT_EQ(GetParam().page, "host/guides/mathematics.md");
       continue;

@@ -59,13 +59,22 @@ std::string with_single_blanks(const std::string& line) {
 }  // namespace
 
 std::vector<Command> commands_of(const std::string& page) {
-  constexpr std::string_view kBlock = "    ", kOutput = "      ";
+  constexpr std::string_view kBlock = "    ", kOutput = "      ", kFence = "```";
   std::vector<Command> commands;
   std::istringstream lines(page);
   bool goes_on = false;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
+    if (line.starts_with(kFence)) {
+      commands.push_back({number, "cat > " + line.substr(line.find(' ') + 1) + " <<'END'\n", {}});
+      for (; std::getline(lines, line) && !line.starts_with(kFence); ++number)
+        commands.back().text += line + "\n";
+      commands.back().text += "END";
+      ++number;
+      goes_on = false;
+      continue;
+    }
     if (!line.starts_with(kBlock)) {
       goes_on = false;
       continue;

@@ -7,7 +7,8 @@
 namespace astro::guides {
 
 /// In a block of code (four blanks) a command begins at the block's own margin and goes on after a backslash at the end of a
-/// line. Lines two columns further in are lines of its output.
+/// line. Lines two columns further in are lines of its output. A block between fences ("```python NAME") is a file that the reader
+/// writes, which is a command, too: cat > NAME.
 struct Command {
   int line = 0;  // of the page, from 1
   std::string text;

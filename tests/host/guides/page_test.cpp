@@ -20,6 +20,17 @@ TEST(Page, HasACommandAndItsOutputByHowFarTheyStandIn) {
   EXPECT_THAT(commands[2].shown, testing::IsEmpty());
 }
 
+TEST(Page, HasFilesBetweenFencesThatTheReaderWrites) {
+  const std::vector<Command> commands =
+      commands_of("Text\n\n```python a.py\nif x:\n    y()\n```\n\n    python3 a.py\n      z\n");
+  ASSERT_EQ(commands.size(), 2U);
+  EXPECT_EQ(commands[0].text, "cat > a.py <<'END'\nif x:\n    y()\nEND");
+  EXPECT_EQ(commands[0].line, 3);
+  EXPECT_EQ(commands[1].text, "python3 a.py");
+  EXPECT_EQ(commands[1].line, 8);
+  EXPECT_THAT(commands[1].shown, testing::ElementsAre("z"));
+}
+
 TEST(Page, IsHeldToTheLinesItShowsInTheirOrder) {
   const std::string output = "one\ntwo   and a half\nthree\n";
   EXPECT_EQ(missing_line({"one", "three"}, output), "");

@@ -1,0 +1,191 @@
+"""The client of the package against the simulated robot."""
+
+import csv
+import math
+import os
+import pty
+import subprocess
+import tempfile
+import tty
+import unittest
+
+try:
+    import numpy
+    import serial  # noqa: F401
+except ImportError as missing:
+    raise unittest.SkipTest(f"{missing}: install python3-numpy and python3-serial")
+
+import astrolabe
+from astrolabe.messages import ErrorCode, Fault, Mode
+
+import robots
+
+
+class WithRobot(unittest.TestCase):
+    def setUp(self) -> None:
+        self.port = self.enterContext(robots.simulated())
+        self.robot = self.enterContext(astrolabe.connect(self.port))
+
+
+class Driving(WithRobot):
+    def test_a_square_ends_where_it_began_and_the_robot_is_disarmed(self) -> None:
+        with self.robot.record() as recording, self.robot.drive() as drive:
+            drive.run(astrolabe.square(0.5))
+        end = recording[-1]
+        # The robot steers by its odometry: it ends within what its speed loop leaves of a stop, some tenths of a millimetre.
+        self.assertLess(math.hypot(end.x_m, end.y_m), 2e-3)
+        self.assertAlmostEqual(end.theta_rad, 2 * math.pi, delta=5e-3)
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_velocity_is_held_for_as_long_as_it_is_asked_for(self) -> None:
+        with self.robot.record() as recording, self.robot.drive() as drive:
+            drive.hold_velocity(0.2, 0, 1.5)
+        speed = recording.to_numpy()["v_mps"]
+        self.assertAlmostEqual(float(numpy.median(speed[speed > 0.1])), 0.2, delta=0.01)  # 5 %: the speed loop's ripple
+        self.assertEqual(recording[-1].latched_faults, 0)
+
+    def test_a_velocity_that_nobody_repeats_ends_by_the_robots_time_out(self) -> None:
+        with self.assertRaises(astrolabe.DriveFault) as raised, self.robot.drive() as drive:
+            drive.set_velocity(0.2, 0)
+            drive.wait(5)
+        self.assertEqual(raised.exception.fault, Fault.command_timeout)
+        with self.robot.drive() as drive:  # which clears what was left behind
+            drive.run(astrolabe.spin(0.1))
+
+    def test_an_exception_in_the_block_stops_and_disarms(self) -> None:
+        with self.assertRaisesRegex(KeyError, "mine"), self.robot.drive() as drive:
+            drive.set_velocity(0.2, 0)
+            raise KeyError("mine")
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+        self.assertEqual(self.robot.faults(), [])
+
+    def test_a_ctrl_c_in_the_block_stops_and_disarms(self) -> None:
+        with self.assertRaises(KeyboardInterrupt), self.robot.drive() as drive:
+            drive.set_velocity(0.2, 0)
+            raise KeyboardInterrupt
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_robot_with_a_fault_is_not_armed_until_a_person_clears_it(self) -> None:
+        self.robot.emergency_stop()
+        with self.assertRaises(astrolabe.DriveFault) as raised, self.robot.drive():
+            self.fail("it was armed")
+        self.assertEqual(raised.exception.fault, Fault.emergency_stop)
+        self.assertEqual(self.robot.faults(), [Fault.emergency_stop])
+        self.robot.clear_faults()
+        with self.robot.drive() as drive:
+            drive.run(astrolabe.spin(0.1))
+
+    def test_a_robot_that_is_gone_is_said_to_be_perhaps_moving(self) -> None:
+        with self.assertRaisesRegex(astrolabe.NotStopped, "may still be moving"), self.robot.drive():
+            self.robot.close()
+
+    def test_a_path_that_is_not_possible_is_refused_before_anything_is_sent(self) -> None:
+        for impossible in (lambda: astrolabe.line(math.nan), lambda: astrolabe.line(1e11), lambda: astrolabe.square(-1)):
+            with self.assertRaises(astrolabe.InvalidValue):
+                impossible()
+
+
+class Telemetry(WithRobot):
+    def test_a_recording_is_the_same_as_array_and_as_table(self) -> None:
+        with self.robot.record(period_s=0.01) as recording, self.robot.drive() as drive:
+            drive.run(astrolabe.line(0.1))
+        array = recording.to_numpy()
+        with tempfile.TemporaryDirectory() as folder:
+            recording.to_csv(os.path.join(folder, "line.csv"))
+            with open(os.path.join(folder, "line.csv"), newline="") as file:
+                rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(array))
+        self.assertEqual([float(row["x_m"]) for row in rows], list(array["x_m"]))
+        self.assertEqual([int(row["left_counts"]) for row in rows], list(array["left_counts"]))
+        self.assertEqual({row["mode"] for row in rows} - set(Mode.__members__), set())
+        numpy.testing.assert_allclose(numpy.diff(array["time_s"]), 0.01, atol=1e-9)
+
+    def test_watching_yields_samples_of_the_robot_at_rest(self) -> None:
+        samples = list(self.robot.watch(0.3))
+        self.assertGreater(len(samples), 1)
+        self.assertEqual({sample.mode for sample in samples}, {Mode.disarmed})
+
+    def test_one_telemetry_at_a_time(self) -> None:
+        with self.robot.record(), self.assertRaises(astrolabe.InvalidValue), self.robot.record():
+            pass
+
+
+class Parameters(WithRobot):
+    def test_a_new_set_is_in_force_for_everybody_and_kept(self) -> None:
+        self.robot.parameters.set({"b": 0.2875, "robot_name": "lisp"})
+        self.robot.close()
+        with astrolabe.connect(self.port) as again:
+            self.assertEqual(again.parameters["b"].value, 0.2875)
+            self.assertEqual(again.parameters["robot_name"].value, "lisp")
+            self.assertEqual(str(again.parameters["b"]), "b = 0.2875 m")
+
+    def test_values_survive_a_round_trip_through_the_table(self) -> None:
+        for row in self.robot.parameters.values():
+            self.assertEqual((row.stage(row.value).value, row.stage(row.value).text), (row.held.active, row.held.active_text))
+
+    def test_what_the_table_does_not_allow_is_refused_before_anything_is_sent(self) -> None:
+        before = self.robot.parameters["b"].value
+        for values in ({"b": 0.28, "c_R": 1e9}, {"b": 0.28, "nonsense": 1}, {"b": "wide"}, {"b": math.inf}, {"robot_name": 3}):
+            with self.assertRaises(astrolabe.InvalidValue):
+                self.robot.parameters.set(values)
+        self.robot.parameters.refresh()
+        self.assertEqual(self.robot.parameters["b"].value, before)
+
+    def test_a_set_that_the_robot_refuses_changes_nothing_and_names_the_parameter(self) -> None:
+        limit = float(self.robot.parameters["speed_limit"].value)
+        with self.assertRaisesRegex(astrolabe.RobotRefused, "over_speed"):
+            self.robot.parameters.set({"b": 0.28, "over_speed": limit / 2})
+        self.robot.parameters.refresh()
+        self.assertEqual(self.robot.parameters["b"].value, 0.29)
+
+    def test_a_robot_that_drives_keeps_its_set(self) -> None:
+        self.assertIn("b", self.robot.parameters)  # read before the robot needs its driver
+        with self.robot.drive() as drive:
+            drive.set_velocity(0.1, 0)
+            with self.assertRaises(astrolabe.RobotRefused) as raised:
+                self.robot.parameters.set({"b": 0.28})
+        self.assertEqual(raised.exception.code, ErrorCode.moving)
+
+
+class Ports(unittest.TestCase):
+    def test_a_robot_behind_tcp_is_the_same(self) -> None:
+        with robots.simulated() as port, robots.behind_tcp(port) as address, astrolabe.connect(address) as robot:
+            with robot.drive() as drive:
+                drive.run(astrolabe.spin(0.25))
+            self.assertEqual(robot.identity.board, "sim")
+
+    def test_what_is_no_port_is_said_in_one_sentence(self) -> None:
+        for address in ("/dev/nonsense", "/dev/null", "/tmp", "tcp:localhost", "tcp:localhost:1", "tcp:192.0.2.1:5555", ""):
+            with self.subTest(address), self.assertRaises(astrolabe.PortError) as raised:
+                astrolabe.connect(address)
+            self.assertNotIn("\n", str(raised.exception))
+
+    def test_a_line_without_a_robot_is_told_from_one_that_echoes(self) -> None:
+        master, slave = pty.openpty()
+        tty.setraw(slave)
+        with self.assertRaisesRegex(astrolabe.PortError, "does not answer"):
+            astrolabe.connect(os.ttyname(slave))
+        os.close(slave)
+        os.close(master)
+
+    def test_a_port_that_this_package_holds_is_refused_to_a_second_connection(self) -> None:
+        with robots.simulated() as port, astrolabe.connect(port):
+            with self.assertRaisesRegex(astrolabe.PortError, "in use by another program"):
+                astrolabe.connect(port)
+
+    def test_a_stop_from_another_program_ends_the_drive_and_holds(self) -> None:
+        port = self.enterContext(robots.simulated("--seed", "1"))
+        with astrolabe.connect(port) as alone:  # three programs share the port: a busy machine may hold up this one
+            alone.parameters.set({"command_timeout": 10_000})  # ms
+        self.enterContext(robots.running([robots.PROGRAM, "monitor", "--port", port, "--json"], until="{"))
+        robot = self.enterContext(astrolabe.connect(port))  # through the monitor, which holds the port
+        with self.assertRaises(astrolabe.DriveEnded), robot.drive() as drive:
+            stop = subprocess.Popen([robots.PROGRAM, "stop", "--port", port], stdout=subprocess.DEVNULL)
+            while True:
+                drive.run(astrolabe.line(0.1) + astrolabe.line(-0.1))
+        self.assertEqual(stop.wait(), 0)
+        self.assertEqual(robot.status().mode, Mode.disarmed)
+
+
+if __name__ == "__main__":
+    unittest.main()
