@@ -113,7 +113,7 @@ TEST_F(Parameters, AreRefusedWhileTheRobotDrives) {
   bench.drive_ms(500, 0.3, 0);
   const auto result = set({{"c_R", to_parameter(1.002)}});
   EXPECT_FALSE(result.successful);
-  EXPECT_THAT(result.reason, HasSubstr("moving"));
+  EXPECT_THAT(result.reason, HasSubstr("at rest"));
 }
 
 TEST_F(Parameters, AreRefusedInAnotherTypeButAWholeNumberMayStandForARealOne) {

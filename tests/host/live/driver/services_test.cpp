@@ -256,7 +256,7 @@ TEST_F(Services, ResetOdometryIsRefusedWhileTheRobotMoves) {
   bench.drive_ms(1000, 0.3, 0);
   const auto answer = bench.call("/reset_odometry");
   EXPECT_FALSE(answer.success);
-  EXPECT_THAT(answer.message, HasSubstr("moving"));
+  EXPECT_THAT(answer.message, HasSubstr("at rest"));
   EXPECT_GT(odometry().pose.pose.position.x, 0.1);
 }
 
