@@ -226,32 +226,37 @@ TEST_F(InAnEmptyHall, IsRefusedBecauseNoWallIsWithinTheScannersRange) {
   EXPECT_EQ(told.kind, Kind(ExperimentProblem::recording_unusable)) << told.sentence;
 }
 
-struct InACrowd : ScannedExperiment {
-  InACrowd() : ScannedExperiment(crowded()) {}
-  static simulation::Room crowded() {
-    simulation::Room crowd = room();
-    for (int person = 0; person < 8; ++person) {
-      const double x = -2 + 0.8 * person;
-      crowd.people.push_back({{{x, -2.7}, {1.5 - x / 2, 2.6}}, 0.5 + 0.1 * person, 0.2});
-    }
-    return crowd;
+/// People who walk to and fro through the room, and through the robot.
+simulation::Room room_with_people(int people) {
+  simulation::Room crowd = room();
+  for (int person = 0; person < people; ++person) {
+    const double x = -2 + 0.8 * person;
+    crowd.people.push_back({{{x, -2.7}, {1.5 - x / 2, 2.6}}, 0.5 + 0.1 * person, 0.2});
   }
+  return crowd;
+}
+
+struct AmongTwoPeople : ScannedExperiment {
+  AmongTwoPeople() : ScannedExperiment(room_with_people(2)) {}
 };
 
-/// Eight people walk to and fro through the room, and through the robot.
-TEST_F(InACrowd, IsRefusedOrRight) {
-  try {
-    const Results results = run(scanned_plan());
-    const Calibration& found = *results.before().calibration;
-    fmt::print("{}\n", judgement_sentence(found));
-    if (advises_against(found.judgement.verdict)) return;
-    EXPECT_NEAR(found.E_d(), config_.true_ed, 4 * found.se.E_d);
-    EXPECT_NEAR(found.factors.b_m / config_.true_wheelbase_m, 1, 4 * precision_of(found).b);
-    EXPECT_GT(results.improvement(), 1);
-  } catch (const Error& error) {
-    fmt::print("{}\n", error.what());
-    EXPECT_EQ(error.kind(), Kind(ExperimentProblem::recording_unusable));
-  }
+TEST_F(AmongTwoPeople, StillFindsHowTheWheelsDiffer) {
+  const Results results = run(scanned_plan());
+  const Calibration& found = *results.before().calibration;
+  EXPECT_NEAR(found.E_d(), config_.true_ed, 4 * found.se.E_d);
+  EXPECT_NEAR(found.factors.b_m / config_.true_wheelbase_m, 1, 4 * precision_of(found).b);
+  EXPECT_LT(found.se.E_d, 1e-3) << "an error that is so large that anything is right proves nothing";
+}
+
+struct InACrowd : ScannedExperiment {
+  InACrowd() : ScannedExperiment(room_with_people(8)) {}
+};
+
+TEST_F(InACrowd, IsNotShownToBeBetterAndToldHowManyScansDoNotMatch) {
+  const Results results = run(scanned_plan());
+  const Calibration& found = *results.before().calibration;
+  EXPECT_EQ(found.judgement.verdict, calibration::Verdict::undecided) << judgement_sentence(found);
+  EXPECT_THAT(found.scans()->remarks, Contains(Tells(lidar::ScanRemark::unmatched, testing::_, testing::_)));
 }
 
 struct WithAScannerUpsideDown : ScannedExperiment {
