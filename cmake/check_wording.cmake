@@ -11,6 +11,7 @@ set(format_constants
   "host/recording/run_metadata.hpp:astrolabe.run"         # the metadata record of a run
   "host/formats/messages/telemetry.hpp:astrolabe_msgs/msg/Telemetry"
   "host/recording/sample_messages.cpp:astrolabe_msgs/msg/WheelCounts"
+  "host/recording/sample_messages.cpp:astrolabe_msgs/msg/GyroSlip"
   "host/robot/port/ports.cpp:astrolabe-"                  # the folder of simulated ports
   "host/robot/sharing/port_socket.cpp:astrolabe-"         # the socket of a shared port
   "host/robot/sharing/relay_server.cpp:astrolabe-relay"   # the thread's name, as `ps` and debuggers show it

@@ -17,10 +17,17 @@ constexpr std::uint64_t scramble(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-constexpr std::uint64_t hash(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
-  constexpr std::uint64_t kGolden = 0x9E37'79B9'7F4A'7C15U;
-  const std::uint64_t key = scramble(scramble(seed + kGolden) ^ ((stream + 1) * kGolden));
+inline constexpr std::uint64_t kGolden = 0x9E37'79B9'7F4A'7C15U;
+
+/// What all numbers of a stream have in common, for who draws many of them.
+constexpr std::uint64_t stream_key(std::uint64_t seed, std::uint64_t stream) {
+  return scramble(scramble(seed + kGolden) ^ ((stream + 1) * kGolden));
+}
+constexpr std::uint64_t hash(std::uint64_t key, std::uint64_t index) {
   return scramble(key + (index + 1) * kGolden);
+}
+constexpr std::uint64_t hash(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
+  return hash(stream_key(seed, stream), index);
 }
 
 /// Quantile of the standard normal distribution; p in (0, 1).
@@ -46,9 +53,12 @@ inline double normal_quantile(double p) {
 }
 
 /// Standard normal deviate number `index` of a stream.
-inline double gauss(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
-  const double p = (static_cast<double>(hash(seed, stream, index) >> 11) + 0.5) * 0x1p-53;
+inline double gauss(std::uint64_t key, std::uint64_t index) {
+  const double p = (static_cast<double>(hash(key, index) >> 11) + 0.5) * 0x1p-53;
   return normal_quantile(p);
+}
+inline double gauss(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
+  return gauss(stream_key(seed, stream), index);
 }
 
 }  // namespace astro::sim

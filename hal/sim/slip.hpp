@@ -23,7 +23,7 @@ class Slip {
 
   /// `slip_m` is K; `wheel` selects the stream of random numbers.
   Slip(std::uint64_t seed, std::uint64_t wheel, double slip_m)
-      : seed_(seed), wheel_(wheel), sigma_(std::sqrt(slip_m / kCell_m)) {
+      : key_(stream_key(seed, wheel)), sigma_(std::sqrt(slip_m / kCell_m)) {
     enter(0);
   }
 
@@ -44,10 +44,10 @@ class Slip {
   void enter(std::uint64_t cell) {
     cell_ = cell;
     left_m_ = kCell_m;
-    factor_ = sigma_ > 0.0 ? 1.0 + sigma_ * gauss(seed_, wheel_, cell) : 1.0;
+    factor_ = sigma_ > 0.0 ? 1.0 + sigma_ * gauss(key_, cell) : 1.0;
   }
 
-  std::uint64_t seed_, wheel_;
+  std::uint64_t key_;
   double sigma_;
   std::uint64_t cell_ = 0;
   double left_m_ = kCell_m;  // of the current cell

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -19,6 +20,7 @@ constexpr std::size_t kFewestMatches = 10;
 /// What all drives show, with the scanner thought to sit as `start` says.
 struct Matched {
   std::vector<Stretch> stretches;
+  std::vector<std::size_t> ends;  // of each drive: how many stretches there are up to its end
   std::vector<LongMatch> long_matches;
   ScanCounts counts;
 };
@@ -29,6 +31,7 @@ Matched match_all(std::span<const ScannedDrive> drives, const calibration::Wheel
   for (const ScannedDrive& drive : drives) {
     Keyframes keyframes = keyframes_of(drive, loaded, start, mirrored);
     std::move(keyframes.stretches.begin(), keyframes.stretches.end(), std::back_inserter(all.stretches));
+    all.ends.push_back(all.stretches.size());
     all.long_matches.insert(all.long_matches.end(), keyframes.long_matches.begin(),
                             keyframes.long_matches.end());
     all.counts += keyframes.counts;
@@ -52,6 +55,40 @@ void require_matches(const ScanCounts& counts) {
 bool elsewhere(const Unknowns& found, const Unknowns& start) {
   const Unknowns off = (found - start).cwiseAbs();
   return off(kLeverX) > 0.15 || off(kLeverY) > 0.15 || off(kLeverYaw) > 0.1 || off(kLate) > 0.02;
+}
+
+/// By how much later the scans' stamps are in each drive than in all of them together; 0 unless that is clear. Another computer's clock
+/// may have been set between two drives, or runs at another rate.
+std::vector<double> clock_jumps(const Matched& matched, const IteratedFit& all) {
+  constexpr std::size_t kFewest = 10;
+  constexpr double kClearly = 4, kLeast_s = 0.003;
+  Freedom stamps_alone{};
+  stamps_alone[kLate] = true;
+  std::vector<double> jumps;
+  auto begin = all.stretches.begin();
+  for (const std::size_t end_index : matched.ends) {
+    const auto end =
+        std::ranges::lower_bound(begin, all.stretches.end(), end_index, {}, &LinearStretch::index);
+    const std::span<const LinearStretch> of_drive(begin, end);
+    begin = end;
+    jumps.push_back(0);
+    if (of_drive.size() < kFewest) continue;
+    const StretchFit own = fit(of_drive, all.at, all.fit.unknowns, stamps_alone);
+    const double later_s = own.unknowns(kLate) - all.fit.unknowns(kLate);
+    if (std::abs(later_s) > std::max(kLeast_s, kClearly * std::sqrt(own.covariance(kLate, kLate))))
+      jumps.back() = later_s;
+  }
+  return jumps;
+}
+
+/// Puts the scans of each drive, whose own offset is in `later_s`, onto one clock. False if there is nothing to do.
+bool put_on_one_clock(std::span<ScannedDrive> drives, std::span<const double> jumps,
+                      std::vector<double>& later_s) {
+  for (std::size_t i = 0; i < jumps.size(); ++i) {
+    drives[i].origin_ns += std::llround(1e9 * jumps[i]);
+    later_s[i] += jumps[i];
+  }
+  return std::ranges::any_of(jumps, [](double jump_s) { return jump_s != 0; });
 }
 
 /// By the derivatives of c_R, c_L, b and e.
@@ -110,7 +147,8 @@ std::vector<ScannedDrive> in_order(std::span<const ScannedDrive> drives) {
 
 ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> given,
                                    const calibration::WheelFactors& loaded, bool mirrored) {
-  const std::vector<ScannedDrive> drives = in_order(given);
+  std::vector<ScannedDrive> drives = in_order(given);
+  std::vector<double> later_s(drives.size());  // the stamps of each drive
   constexpr int kMostTimes = 4;
   const bool late = std::all_of(drives.begin(), drives.end(),
                                 [](const ScannedDrive& drive) { return drive.times_measured; });
@@ -125,7 +163,10 @@ ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> given,
     matched = match_all(drives, loaded, start, mirrored);
     require_matches(matched.counts);
     all = iterated_fit(matched.stretches, start, all_free(late), loaded);
-    if (!elsewhere(all.fit.unknowns, start)) break;
+    if (time + 1 == kMostTimes) break;
+    const bool jumped =
+        late && drives.size() > 1 && put_on_one_clock(drives, clock_jumps(matched, all), later_s);
+    if (!jumped && !elsewhere(all.fit.unknowns, start)) break;
     for (const Unknown place : {kLeverX, kLeverY, kLeverYaw, kLate}) start(place) = all.fit.unknowns(place);
   }
   found.choice = choose_factors(matched.stretches, all.stretches, all.at, start, late, loaded);
@@ -136,11 +177,16 @@ ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> given,
   const Freedom chosen = can_be_judged(found.choice) ? found.choice.set.freedom(late) : all_free(late);
   const Unknowns used = fit(all.stretches, all.at, start, chosen).unknowns;
   found.factors = factors_of(used, loaded);
-  found.covariance = factor_covariance(used, all.fit.covariance, loaded);
+  // Factors that stay as loaded are off by what the drives say of them, and by what the drives leave open.
+  const Unknowns kept = all.fit.unknowns - used;
+  found.covariance = factor_covariance(used, all.fit.covariance + kept * kept.transpose(), loaded);
   found.scanner = lever_of(used);
   const auto error = [&](Unknown k) { return std::sqrt(all.fit.covariance(k, k)); };
   found.scanner_se = {error(kLeverX), error(kLeverY), error(kLeverYaw)};
-  found.late_s = used(kLate);
+  const auto [earliest, latest] = std::ranges::minmax(later_s);
+  found.late_spread_s = latest - earliest;
+  found.late_s = used(kLate) +
+                 std::accumulate(later_s.begin(), later_s.end(), 0.0) / static_cast<double>(later_s.size());
   found.late_se_s = late ? error(kLate) : std::numeric_limits<double>::quiet_NaN();
   found.residuals = residuals_of(matched.stretches, used, loaded);
   found.remarks = remarks_on(matched.long_matches, mounting, found);

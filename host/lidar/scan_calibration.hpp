@@ -25,6 +25,7 @@ enum class ScanRemark {
   unmatched,       // keyframes whose scans do not match: how many of how many
   gaps,            // the robot drove on without scans: how often
   outside,         // scans made before or after the wheels were recorded: how many of how many
+  clocks_differ,  // the offset between the clocks of wheels and scans is another in other drives: by milliseconds
   matcher_biased,  // matches over some metres differ from the chain of the matches in between: degrees for each metre
 };
 
@@ -37,11 +38,13 @@ struct StretchResidual {
 
 struct ScanCalibration {
   calibration::WheelFactors loaded, factors;
-  Eigen::Matrix4d
-      covariance;  // of c_R, c_L, b, e: what these drives leave open, also of factors that stayed as loaded
+  /// Of c_R, c_L, b, e: what these drives leave open, and how far factors that stayed as loaded are from what the drives say.
+  Eigen::Matrix4d covariance;
   calibration::LeverArm scanner, scanner_se;
   double late_s = 0, late_se_s = 0;  // the scans' stamps are late; the error is NaN where times mean nothing
-  Unknowns unknowns;                 // all of them free: what the drives show, whether it is used or not
+  /// By how much the offset of the scans' clock differs between drives, of which each then has its own; 0: one will do.
+  double late_spread_s = 0;
+  Unknowns unknowns;  // all of them free: what the drives show, whether it is used or not
   Information unknowns_covariance;
   FactorChoice choice;
   bool judged =

@@ -84,6 +84,18 @@ Mean mean_of(const std::vector<double>& values) {
   return {mean, std::sqrt(squares / (n - 1) / n)};
 }
 
+void add_clocks(double late_spread_s, std::vector<Remark>& remarks) {
+  if (late_spread_s == 0) return;
+  const std::string by = fmt::format("{:.0f}", 1000 * late_spread_s);
+  remarks.push_back(
+      {fmt::format("the clocks of wheels and scans were up to {} ms further apart in some drives "
+                   "than in others, so each drive has an offset of its own: one of them was set, or "
+                   "both run at different rates",
+                   by),
+       ScanRemark::clocks_differ,
+       {by}});
+}
+
 /// Matches over some metres against the chain of those in between: a bias of the matcher would look like one of the wheels. It is
 /// told if it is clear, and larger than what the drives leave open of the bend.
 void add_bias(std::span<const LongMatch> long_matches, double bend_error_radpm,
@@ -113,6 +125,7 @@ std::vector<Remark> remarks_on(std::span<const LongMatch> long_matches, const Mo
   std::vector<Remark> remarks;
   add_missing_motions(mounting, found, remarks);
   add_counts(found.counts, remarks);
+  add_clocks(found.late_spread_s, remarks);
   add_bias(long_matches, std::sqrt(found.unknowns_covariance(kBend, kBend)), remarks);
   return remarks;
 }

@@ -4,6 +4,7 @@ namespace astro::recording {
 
 /// Why a file or a folder is no recording. Values: the file or the folder; then what the system says
 /// (folder_unreadable), the entry's key (bad_entry), or the time in microseconds (time_out_of_range).
+/// Of turned_unseen, which is a remark on a run: its name, then for each turn the degrees and the seconds after the start.
 enum class RecordingProblem {
   not_mcap,
   of_no_run,
@@ -16,7 +17,8 @@ enum class RecordingProblem {
   none_in_folder,
   folder_missing,
   folder_is_file,
-  folder_unreadable
+  folder_unreadable,
+  turned_unseen
 };
 
 }  // namespace astro::recording

@@ -1,5 +1,7 @@
 #include "host/recording/rosbag_export.hpp"
 
+#include <algorithm>
+
 #include "host/base/error.hpp"
 #include "host/formats/files/db3_writer.hpp"
 #include "host/formats/messages/joint_state.hpp"
@@ -8,6 +10,7 @@
 #include "host/formats/messages/text_message.hpp"
 #include "host/recording/log_time.hpp"
 #include "host/recording/robot_messages.hpp"
+#include "host/recording/run_order.hpp"
 #include "host/recording/sample_messages.hpp"
 
 namespace astro::recording {
@@ -21,6 +24,10 @@ class Exporter {
     counts_ = add("/wheel_counts", recording::wheel_counts_type());
     truth_ = add("/truth", ros2::pose_stamped_type());
     transforms_ = add("/tf", ros2::tf_message_type());
+    if (std::ranges::any_of(run.odometry,
+                            [](const OdometrySample& sample) { return sample.gyro.has_value(); }))
+      gyro_poses_ = add("/odom_gyro", ros2::odometry_type());
+    if (!run.slips.empty()) slips_ = add("/gyro_slip", recording::gyro_slip_type());
     if (!run.scans.empty()) scans_ = add("/scan", recording::laser_scan_type());
     if (!robot_.knows_sizes()) return;
     joints_ = add("/joint_states", ros2::joint_state_type());
@@ -35,6 +42,7 @@ class Exporter {
     bag_.write(odometry_, time_ns, recording::encode_odometry(sample));
     bag_.write(counts_, time_ns,
                recording::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
+    if (sample.gyro) bag_.write(gyro_poses_, time_ns, recording::encode_gyro_pose(*sample.gyro));
     bag_.write(transforms_, time_ns, robot_.transforms());
     if (robot_.knows_sizes()) bag_.write(joints_, time_ns, robot_.joints());
   }
@@ -42,6 +50,11 @@ class Exporter {
     const std::int64_t time_ns = log_time_.ns(sample.time_us);
     describe(time_ns);
     bag_.write(truth_, time_ns, recording::encode_truth(sample));
+  }
+  void write(const GyroSlip& slip) {
+    const std::int64_t time_ns = log_time_.ns(slip.time_us);
+    describe(time_ns);
+    bag_.write(slips_, time_ns, recording::encode_slip(slip));
   }
   void write(const lidar::Scan& scan) {
     const std::int64_t time_ns = log_time_.ns(scan.time_ns / 1000);
@@ -66,21 +79,14 @@ class Exporter {
   LogTime log_time_;
   bool described_ = false;
   int odometry_ = 0, counts_ = 0, truth_ = 0, transforms_ = 0, joints_ = 0, description_ = 0, scans_ = 0;
+  int gyro_poses_ = 0, slips_ = 0;
 };
 
 }  // namespace
 
 void export_rosbag(const Run& run, const std::filesystem::path& folder) {
   Exporter exporter(run, folder);
-  auto truth = run.truth.begin();
-  auto scan = run.scans.begin();
-  for (const OdometrySample& sample : run.odometry) {
-    while (truth != run.truth.end() && truth->time_us <= sample.time_us) exporter.write(*truth++);
-    while (scan != run.scans.end() && scan->time_ns <= 1000 * sample.time_us) exporter.write(*scan++);
-    exporter.write(sample);
-  }
-  while (truth != run.truth.end()) exporter.write(*truth++);
-  while (scan != run.scans.end()) exporter.write(*scan++);
+  for_each_in_order(run, [&](const auto& sample) { exporter.write(sample); });
   exporter.close();
 }
 

@@ -18,11 +18,25 @@
 /// Times   microseconds on the robot's clock, both streams (`truth_clock` says how truth got there).
 namespace astro::recording {
 
+/// The pose by wheels and gyro beside that of the wheels, at most 10 ms older.
+struct GyroPose {
+  std::int64_t time_us = 0;
+  double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
+  double omega_radps = 0;                  // mean yaw rate by the gyro over 10 ms, without its bias
+};
+
 struct OdometrySample {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;          // theta continuous, not wrapped
   double v_mps = 0, omega_radps = 0;               // measured body twist
   std::int32_t left_counts = 0, right_counts = 0;  // running encoder counts, forward positive, wrap at 2^32
+  std::optional<GyroPose> gyro = {};               // nothing of a robot that uses none
+};
+
+/// The gyro noticed that the robot turned without its wheels: a kick, or a wheel that slipped.
+struct GyroSlip {
+  std::int64_t time_us = 0;
+  double turn_rad = 0;  // counter-clockwise, so far
 };
 
 struct TruthSample {
@@ -60,6 +74,7 @@ struct Run {
   std::optional<Remark> warning = {};
   /// Of a laser scanner on the robot, on the robot's clock; the place of the scanner is not known.
   std::vector<lidar::Scan> scans = {};
+  std::vector<GyroSlip> slips = {};
 };
 
 }  // namespace astro::recording

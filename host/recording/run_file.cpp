@@ -13,6 +13,7 @@
 #include "host/formats/messages/ros_messages.hpp"
 #include "host/recording/recording_problem.hpp"
 #include "host/recording/run_metadata.hpp"
+#include "host/recording/run_order.hpp"
 #include "host/recording/run_writer.hpp"
 #include "host/recording/sample_messages.hpp"
 
@@ -34,11 +35,12 @@ struct Streams {
   std::deque<recording::WheelCounts> counts;
   std::deque<TruthSample> truth;
   std::deque<lidar::Scan> scans;
+  std::deque<GyroSlip> slips;
   bool unreadable = false;
 
   template <class T>
   void keep(std::deque<T>& stream, std::optional<T> sample) {
-    if (odometry.size() + counts.size() + truth.size() + scans.size() >= most)
+    if (odometry.size() + counts.size() + truth.size() + scans.size() + slips.size() >= most)
       throw Error(file + " holds more samples than any drive whose recording has its size: it is damaged",
                   RecordingProblem::too_many_samples, {file});
     if (sample)
@@ -51,12 +53,17 @@ struct Streams {
     if (schema == nullptr || channel.message_encoding != "cdr") return;
     if (schema->name == ros2::odometry_type().name && channel.topic == "/odom") {
       keep(odometry, recording::decode_odometry(message.data));
+    } else if (schema->name == ros2::odometry_type().name && channel.topic == "/odom_gyro") {
+      // It stands behind its odometry in the file.
+      if (!odometry.empty()) odometry.back().gyro = recording::decode_gyro_pose(message.data);
     } else if (schema->name == recording::wheel_counts_type().name && channel.topic == "/wheel_counts") {
       keep(counts, recording::decode_counts(message.data));
     } else if (schema->name == ros2::pose_stamped_type().name && channel.topic == "/truth") {
       keep(truth, recording::decode_truth(message.data));
     } else if (schema->name == recording::laser_scan_type().name && channel.topic == "/scan") {
       keep(scans, recording::decode_scan(message.data));
+    } else if (schema->name == recording::gyro_slip_type().name && channel.topic == "/gyro_slip") {
+      keep(slips, recording::decode_slip(message.data));
     }
   }
 };
@@ -167,30 +174,34 @@ void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad)
   }
 }
 
+/// The same for the headings with the gyro, each within half a turn of the one before, or of the wheels'.
+void unwrap_gyro(std::deque<OdometrySample>& samples) {
+  std::optional<double> apart_rad;  // from the wheels' heading
+  for (OdometrySample& sample : samples) {
+    if (!sample.gyro || !std::isfinite(sample.gyro->theta_rad) || !std::isfinite(sample.theta_rad)) continue;
+    const double off_rad = sample.gyro->theta_rad - sample.theta_rad - apart_rad.value_or(0);
+    sample.gyro->theta_rad -= std::round(off_rad / (2 * std::numbers::pi)) * (2 * std::numbers::pi);
+    apart_rad = sample.gyro->theta_rad - sample.theta_rad;
+  }
+}
+
 Run run_in(ByteSource& source, const std::string& name, Damage damage) {
   RunFile file = parse(source, name, damage);
   if (damage == Damage::accepted && file.warning) drop_singles(file.streams);
   pair_counts(name, file.warning.has_value(), file.streams);
   unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
+  unwrap_gyro(file.streams.odometry);
   unwrap(file.streams.truth, file.record.first_truth_heading_rad);
   file.streams.counts = {};
   return {std::move(file.record.info), drained(file.streams.odometry), drained(file.streams.truth),
-          std::move(file.warning), drained(file.streams.scans)};
+          std::move(file.warning),     drained(file.streams.scans),    drained(file.streams.slips)};
 }
 
 }  // namespace
 
 void write_run(const std::filesystem::path& path, const Run& run) {
   RunWriter writer(path, run.info);
-  auto truth = run.truth.begin();
-  auto scan = run.scans.begin();
-  for (const OdometrySample& sample : run.odometry) {
-    while (truth != run.truth.end() && truth->time_us <= sample.time_us) writer.add(*truth++);
-    while (scan != run.scans.end() && scan->time_ns <= 1000 * sample.time_us) writer.add(*scan++);
-    writer.add(sample);
-  }
-  while (truth != run.truth.end()) writer.add(*truth++);
-  while (scan != run.scans.end()) writer.add(*scan++);
+  for_each_in_order(run, [&](const auto& sample) { writer.add(sample); });
   writer.close(run.info);
 }
 

@@ -21,6 +21,16 @@ struct CountsMessage {
                                       ros2::Field{&CountsMessage::right, "right"}};
 };
 
+/// Our own message type for GyroSlip.
+struct SlipMessage {
+  ros2::msg::Time stamp;
+  double turn_rad = 0;
+
+  static constexpr std::string_view kType = "astrolabe_msgs/msg/GyroSlip";
+  static constexpr std::tuple kFields{ros2::Field{&SlipMessage::stamp, "stamp"},
+                                      ros2::Field{&SlipMessage::turn_rad, "turn_rad"}};
+};
+
 ros2::msg::Time to_stamp(std::int64_t time_us) { return ros2::msg::to_time(time_us * 1000); }
 
 /// Rounded downwards, before 1970 as well.
@@ -33,6 +43,11 @@ std::int64_t time_us_of(const ros2::msg::Time& stamp) {
 
 const ros2::RosType& wheel_counts_type() {
   static const ros2::RosType type = ros2::ros_type<CountsMessage>();
+  return type;
+}
+
+const ros2::RosType& gyro_slip_type() {
+  static const ros2::RosType type = ros2::ros_type<SlipMessage>();
   return type;
 }
 
@@ -51,8 +66,20 @@ Bytes encode_odometry(const OdometrySample& sample) {
   return ros2::encode(message);
 }
 
+Bytes encode_gyro_pose(const GyroPose& pose) {
+  return encode_odometry({.time_us = pose.time_us,
+                          .x_m = pose.x_m,
+                          .y_m = pose.y_m,
+                          .theta_rad = pose.theta_rad,
+                          .omega_radps = pose.omega_radps});
+}
+
 Bytes encode_counts(const WheelCounts& counts) {
   return ros2::encode(CountsMessage{to_stamp(counts.time_us), counts.left, counts.right});
+}
+
+Bytes encode_slip(const GyroSlip& slip) {
+  return ros2::encode(SlipMessage{to_stamp(slip.time_us), slip.turn_rad});
 }
 
 Bytes encode_truth(const TruthSample& sample) {
@@ -91,6 +118,18 @@ std::optional<OdometrySample> decode_odometry(ByteView bytes) {
   sample.v_mps = message->twist.twist.linear.x;
   sample.omega_radps = message->twist.twist.angular.z;
   return sample;
+}
+
+std::optional<GyroPose> decode_gyro_pose(ByteView bytes) {
+  const auto sample = decode_odometry(bytes);
+  if (!sample) return std::nullopt;
+  return GyroPose{sample->time_us, sample->x_m, sample->y_m, sample->theta_rad, sample->omega_radps};
+}
+
+std::optional<GyroSlip> decode_slip(ByteView bytes) {
+  const auto message = ros2::decode<SlipMessage>(bytes);
+  if (!message) return std::nullopt;
+  return GyroSlip{time_us_of(message->stamp), message->turn_rad};
 }
 
 std::optional<WheelCounts> decode_counts(ByteView bytes) {

@@ -19,10 +19,13 @@ struct WheelCounts {
 };
 
 const ros2::RosType& wheel_counts_type();  // astrolabe_msgs/msg/WheelCounts: stamp, left, right
+const ros2::RosType& gyro_slip_type();     // astrolabe_msgs/msg/GyroSlip: stamp, turn_rad
 const ros2::RosType& laser_scan_type();    // sensor_msgs/msg/LaserScan
 
-Bytes encode_odometry(const OdometrySample& sample);  // all but the counts
+Bytes encode_odometry(const OdometrySample& sample);  // all but the counts and the gyro's pose
+Bytes encode_gyro_pose(const GyroPose& pose);         // as odometry whose only twist is the yaw rate
 Bytes encode_counts(const WheelCounts& counts);
+Bytes encode_slip(const GyroSlip& slip);
 /// A sample that is not valid becomes a pose of NaNs, which viewers draw as a gap; a valid one whose heading
 /// is NaN becomes a position with an orientation of NaNs.
 Bytes encode_truth(const TruthSample& sample);
@@ -32,7 +35,9 @@ Bytes encode_scan(const lidar::Scan& scan);
 /// Nothing if the message is too short for its type. theta is in (-pi, pi]; orientations that are not planar
 /// are reduced to their rotation about z, whatever the sign of the quaternion.
 std::optional<OdometrySample> decode_odometry(ByteView message);
+std::optional<GyroPose> decode_gyro_pose(ByteView message);
 std::optional<WheelCounts> decode_counts(ByteView message);
+std::optional<GyroSlip> decode_slip(ByteView message);
 std::optional<TruthSample> decode_truth(ByteView message);
 std::optional<lidar::Scan> decode_scan(ByteView message);
 

@@ -4,20 +4,40 @@
 
 namespace astro::recording {
 
-OdometrySample to_sample(const protocol::Telemetry& telemetry) {
+namespace {
+
+/// `from`: a group with a pose in the robot's own units.
+void put_pose(auto& sample, const auto& from) {
   constexpr double kMetre = 0x1p-40;
   constexpr double kTurn = 0x1p-64;
+  sample.x_m = static_cast<double>(from.x) * kMetre;
+  sample.y_m = static_cast<double>(from.y) * kMetre;
+  sample.theta_rad = 2 * std::numbers::pi * (from.turns + static_cast<double>(from.theta) * kTurn);
+}
+
+}  // namespace
+
+OdometrySample to_sample(const protocol::Telemetry& telemetry) {
   OdometrySample sample;
   sample.time_us = static_cast<std::int64_t>(telemetry.device_time_us);
-  sample.x_m = static_cast<double>(telemetry.pose.x) * kMetre;
-  sample.y_m = static_cast<double>(telemetry.pose.y) * kMetre;
-  sample.theta_rad =
-      2 * std::numbers::pi * (telemetry.pose.turns + static_cast<double>(telemetry.pose.theta) * kTurn);
+  put_pose(sample, telemetry.pose);
   sample.v_mps = telemetry.twist.v_umps * 1e-6;
   sample.omega_radps = telemetry.twist.omega_uradps * 1e-6;
   sample.left_counts = telemetry.counts.left;
   sample.right_counts = telemetry.counts.right;
+  const bool with_gyro = (telemetry.fields & protocol::Telemetry::kFused) != 0 &&
+                         telemetry.fused.gyro != protocol::GyroState::off;
+  if (!with_gyro) return sample;
+  GyroPose& gyro = sample.gyro.emplace();
+  gyro.time_us = static_cast<std::int64_t>(telemetry.fused.time_us);
+  put_pose(gyro, telemetry.fused);
+  gyro.omega_radps = telemetry.fused.rate_uradps * 1e-6;
   return sample;
+}
+
+GyroSlip to_sample(const protocol::SlipFound& found) {
+  constexpr double kUnit_rad = 1e-4;
+  return {static_cast<std::int64_t>(found.device_time_us), kUnit_rad * found.turn_100urad};
 }
 
 }  // namespace astro::recording

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "host/recording/run_metadata.hpp"
+#include "host/recording/slip_remark.hpp"
 #include "host/report/figures.hpp"
 #include "host/report/html.hpp"
 #include "host/report/numbers.hpp"
@@ -44,6 +46,11 @@ std::vector<Fact> facts_of(const ReportInput& input) {
       {"Ground truth", [](const Run& run) { return run.info.truth_source; }},
       {"Clock of the ground truth", [](const Run& run) { return run.info.truth_clock; }},
       {"Warnings", [](const Run& run) { return run.warning ? run.warning->sentence : ""; }},
+      {"Turns without wheels, by the gyro",
+       [](const Run& run) {
+         const auto slips = recording::slip_remark(run, recording::run_name(run.info));
+         return slips ? slips->sentence : "";
+       }},
       {"Speed", [](const Run& run) {
          return run.info.speed_mps > 0 ? fmt::format("{:g} m/s", run.info.speed_mps) : "";
        }}};

@@ -77,6 +77,8 @@ void add_build_options(console::Command command, simulation::RobotOptions& robot
   add_ranged(command, "--motor-mismatch", robot.motor_mismatch,
              "constant of the right motor over that of the left one, minus one", "RATIO", -0.5, 0.5, "");
   command.add_flag("--on-stand", robot.on_stand, "with the wheels off the ground");
+  command.add_flag("--gyro", robot.gyro,
+                   "with a gyro, which the robot uses once its parameter gyro_axis is 3");
 }
 
 void add_robot_options(console::Command command, simulation::RobotOptions& robot) {

@@ -27,7 +27,7 @@ void add_calibrate_bag(console::Command calibrate) {
     ImportOptions import;
     CalibrationOutput output;
     MlOption ml;
-    std::string scan_topic;
+    ScanOptions scans;
   };
   const auto options = std::make_shared<Options>();
   const console::Command command = calibrate.add_subcommand(
@@ -39,7 +39,7 @@ void add_calibrate_bag(console::Command calibrate) {
   add_tracker_choices(command, options->import);
   add_geometry_choices(command, options->import);
   add_session_flag(command, options->import.session_per_folder);
-  add_scan_topic(command, options->scan_topic);
+  add_scan_options(command, options->scans);
   add_output(command, options->output);
   add_report_file(command, options->output);
   add_ml(command, options->ml);
@@ -61,12 +61,14 @@ void add_calibrate_bag(console::Command calibrate) {
     ImportOptions& import = options->import;
     require_no_input(options->output.file, {import.robot_file});
     const bool by_scans =
-        !options->scan_topic.empty() ||
+        !options->scans.topic.empty() ||
         (import.truth_topic.empty() && import.frames.empty() &&
          std::all_of(import.wheels.begin(), import.wheels.end(), importing::has_scans_alone));
     if (by_scans && options->ml.given())
       throw console::WrongUsage("--K, --sigma-xy, --sigma-theta and --clock do not apply to scans");
-    if (by_scans) return calibrate_by_scans(with_scans(import), options->output, options->scan_topic);
+    if (by_scans) return calibrate_by_scans(with_scans(import), options->output, options->scans);
+    if (options->scans.given())
+      throw console::WrongUsage("--range-scale-error is of scans, and these bags have poses");
     import.truth = import.wheels;
     const experiment::RunSet set = read_drive_files(options->import);
     put_out(experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()), set,

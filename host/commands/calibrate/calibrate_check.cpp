@@ -66,8 +66,7 @@ experiment::RunSet read_drives(const CheckOptions& options) {
   warn_of_recordings(set.runs);
   if (options.import.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
   give_films(set, options.import);
-  for (recording::Run& run : set.runs)  // recorded while another program drove
-    if (run.truth.empty() && !run.scans.empty()) experiment::give_truth_by_scans(run);
+  experiment::give_missing_truth_by_scans(set.runs);
   return set;
 }
 

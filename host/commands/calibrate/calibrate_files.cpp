@@ -25,13 +25,13 @@ void add_calibrate_files(console::Command calibrate) {
     ImportOptions import;
     CalibrationOutput output;
     MlOption ml;
-    std::string scan_topic;
+    ScanOptions scans;
   };
   const auto options = std::make_shared<Options>();
   const console::Command command =
       calibrate.add_subcommand("files", "from wheels and ground truth that other programs recorded");
   add_import(command, options->import);
-  add_scan_topic(command, options->scan_topic);
+  add_scan_options(command, options->scans);
   add_output(command, options->output);
   add_report_file(command, options->output);
   add_ml(command, options->ml);
@@ -59,9 +59,10 @@ void add_calibrate_files(console::Command calibrate) {
     if (names_scans(options->import) && options->ml.given())
       throw console::WrongUsage("--K, --sigma-xy, --sigma-theta and --clock do not apply to scans");
     if (names_scans(options->import))
-      return calibrate_by_scans(options->import, options->output, options->scan_topic);
-    if (!options->scan_topic.empty())
-      throw console::WrongUsage("--scan-topic does not apply here: no --truth is scan:FILE");
+      return calibrate_by_scans(options->import, options->output, options->scans);
+    if (options->scans.given())
+      throw console::WrongUsage(
+          "--scan-topic and --range-scale-error do not apply here: no --truth is scan:FILE");
     const experiment::RunSet set = read_drive_files(options->import);
     put_out(experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()), set,
             options->output);

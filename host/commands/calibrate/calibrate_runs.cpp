@@ -13,6 +13,7 @@
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
 #include "host/commands/calibrate/ml_option.hpp"
+#include "host/commands/calibrate/scan_truth.hpp"
 #include "host/commands/shared/damaged_option.hpp"
 #include "host/commands/shared/film_truth.hpp"
 #include "host/commands/shared/import_options.hpp"
@@ -38,6 +39,7 @@ struct RunsOptions {
   MlOption ml;
   MethodOption method;
   FilmTruthOption film;
+  RangeScaleOption range_scale;
   bool damaged = false, session_per_folder = false, mirrored = false;
 };
 
@@ -50,6 +52,14 @@ void mirror_scans(experiment::RunSet& set) {
   }
 }
 
+void set_range_scale(experiment::RunSet& set, const RangeScaleOption& range_scale) {
+  for (recording::Run& run : set.runs) {
+    if (run.scans.empty())
+      throw console::WrongUsage("--range-scale-error is of scans, and not all runs have scans");
+    run.info.truth_scale_sigma = range_scale.sigma();
+  }
+}
+
 void calibrate_runs(const RunsOptions& options) {
   const experiment::MethodChoice method = options.method.choice();
   experiment::RunSet set = read_recordings(options.damaged, [&](recording::Damage damage) {
@@ -59,6 +69,11 @@ void calibrate_runs(const RunsOptions& options) {
   if (options.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
   give_truth(set, options.film);
   if (options.mirrored) mirror_scans(set);
+  if (options.range_scale.option.count() > 0) set_range_scale(set, options.range_scale);
+  // Scans calibrate by themselves; all other methods take the poses that follow from them.
+  using Family = experiment::MethodChoice::Family;
+  if (method.family == Family::ml || method.family == Family::end_poses)
+    experiment::give_missing_truth_by_scans(set.runs);
   const experiment::Calibration found = experiment::calibrate(set, method, options.ml.choice());
   if (found.ml() == nullptr && options.session_per_folder)
     throw Error(fmt::format("--session-per-folder is of maximum likelihood, and this is {}: leave it out",
@@ -92,6 +107,8 @@ constexpr Advice kCalibrateRunsAdvice[] = {
     {experiment::AnalysisProblem::run_without_truth,
      ": leave it out with 'astrolabe calibrate runs --without {0}', or use --method robust, extended or "
      "umbmark"},
+    {experiment::AnalysisProblem::only_some_have_scans,
+     " with --without, or take the poses that follow from the scans for ground truth with --method ml"},
     {experiment::AnalysisProblem::no_truth,
      ": drive again with 'astrolabe umbmark' or 'astrolabe record --truth SOURCE', or give a film of the "
      "drives with --truth film:FILE"},
@@ -149,6 +166,7 @@ void add_calibrate_runs(console::Command calibrate) {
       .one_each_time();
   command.add_flag("--truth-mirrored", options->mirrored,
                    "scans: the laser scanner hung upside down, or its\nbeams ran the other way round");
+  add_range_scale(command, options->range_scale);
   add_damaged_flag(command, options->damaged);
   add_session_flag(command, options->session_per_folder);
   add_film_truth(command, options->film);

@@ -77,23 +77,31 @@ bool names_scans(const ImportOptions& options) {
                      [](const fs::path& word) { return scans_named(word).has_value(); });
 }
 
-void add_scan_topic(console::Command command, std::string& topic) {
+void add_range_scale(console::Command command, RangeScaleOption& range_scale) {
+  range_scale.option =
+      add_ranged(command, "--range-scale-error", range_scale.percent,
+                 "scans: standard error of the scale of the scanner's\nranges, which no drive shows",
+                 "PERCENT", 0.001, 20, "%");
+}
+
+void add_scan_options(console::Command command, ScanOptions& options) {
   advise(kScanAdvice);
-  command.add_option("--scan-topic", topic, "bags: the topic of the laser scanner's scans")
+  command.add_option("--scan-topic", options.topic, "bags: the topic of the laser scanner's scans")
       .type_name("TOPIC");
+  add_range_scale(command, options.range_scale);
 }
 
 void calibrate_by_scans(const ImportOptions& options, const CalibrationOutput& output,
-                        const std::string& scan_topic) {
+                        const ScanOptions& scans) {
   const std::vector<importing::DriveFiles> files = files_of(options);
   const importing::ScannedDrives drives = stated([&] {
     refuse_unused(options, files);
-    return importing::scanned_drives(files, importing::choices_of(options), scan_topic);
+    return importing::scanned_drives(files, importing::choices_of(options), scans.topic);
   });
   for (const Remark& remark : drives.remarks) console::say(in_words(remark));
   const bool mirrored = options.mirrored == "yes";
-  experiment::Calibration found =
-      experiment::calibration_of(lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored));
+  experiment::Calibration found = experiment::calibration_of(
+      lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored), scans.range_scale.sigma());
   found.wheel = drives.wheel;
   put_out(found, output, [&] { return experiment::scan_report(found, drives.drives, mirrored); });
 }

@@ -87,6 +87,10 @@ class StreamedRecording {
     open();
     run_->add(scan);
   }
+  void add(const recording::GyroSlip& slip) {
+    open();
+    run_->add(slip);
+  }
   void close() {
     open();
     run_->close(info_);
@@ -150,12 +154,14 @@ void listen(RecordOptions& options) {
   const experiment::Recorded recorded = experiment::record_until(
       *client, *truth,
       {[&](const auto& sample) { streamed.add(sample); }, [&](const auto& sample) { streamed.add(sample); },
-       [&](const auto& scan) { streamed.add(scan); }},
+       [&](const auto& scan) { streamed.add(scan); }, [&](const auto& slip) { streamed.add(slip); }},
       done);
   progress.clear();
   streamed.close();
   console::say(fmt::format("{} odometry and {} truth samples{}", recorded.odometry, recorded.truth,
                            recorded.scans == 0 ? "" : fmt::format(", {} scans", recorded.scans)));
+  if (recorded.slips > 0)
+    console::say(fmt::format("by its gyro the robot turned {} times without its wheels", recorded.slips));
   if (recorded.warning)
     throw Error(
         fmt::format("{}; what came before is in '{}'", recorded.warning->sentence, options.out.string()),

@@ -47,6 +47,28 @@ std::string link_line(const LinkFigures& link) {
                      link.frames.bad(), link.counts.repeats, link.counts.lost_pings);
 }
 
+/// Nothing for a robot that uses no gyro.
+std::string gyro_line(const Telemetry& telemetry) {
+  const auto at = recording::to_sample(telemetry).gyro;
+  if (!at) return {};
+  return fmt::format("  gyro      {:<10} rate {:+9.2f} deg/s   heading {:10.2f} deg   slips {}\n",
+                     protocol::name(telemetry.fused.gyro), without_minus_zero(degrees(at->omega_radps), 2),
+                     without_minus_zero(degrees(at->theta_rad), 2), telemetry.fused.slips);
+}
+
+Json gyro_json(const recording::GyroPose& at, const Telemetry& telemetry) {
+  const protocol::FusedGroup& fused = telemetry.fused;
+  Json json{{"state", std::string(protocol::name(fused.gyro))},
+            {"x_m", at.x_m},
+            {"y_m", at.y_m},
+            {"theta_rad", at.theta_rad},
+            {"rate_radps", at.omega_radps},
+            {"bias_radps", fused.bias_uradps * 1e-6},
+            {"slips", fused.slips}};
+  if (fused.temperature_cC != INT16_MIN) json["temperature_C"] = fused.temperature_cC / 100.0;
+  return json;
+}
+
 Json wheel(std::int32_t set_umps, std::int32_t is_umps, std::int16_t drive, std::int32_t counts) {
   return {{"setpoint_mps", mps(set_umps)},
           {"speed_mps", mps(is_umps)},
@@ -65,9 +87,9 @@ std::string monitor_picture(const std::string& robot, const Telemetry& telemetry
          fmt::format("  pose      x {:10.4f} m     y {:10.4f} m     heading {:10.2f} deg\n",
                      without_minus_zero(at.x_m, 4), without_minus_zero(at.y_m, 4),
                      without_minus_zero(degrees(at.theta_rad), 2)) +
-         fmt::format("  velocity  v {:+10.3f} m/s   omega {:+8.3f} rad/s\n\n",
-                     without_minus_zero(at.v_mps, 3), without_minus_zero(at.omega_radps, 3)) +
-         wheels(telemetry) + "\n" + link_line(link) + "\n  Q quits\n";
+         fmt::format("  velocity  v {:+10.3f} m/s   omega {:+8.3f} rad/s\n", without_minus_zero(at.v_mps, 3),
+                     without_minus_zero(at.omega_radps, 3)) +
+         gyro_line(telemetry) + "\n" + wheels(telemetry) + "\n" + link_line(link) + "\n  Q quits\n";
 }
 
 std::string monitor_line(const Telemetry& telemetry, const LinkFigures& link) {
@@ -81,20 +103,22 @@ std::string monitor_line(const Telemetry& telemetry, const LinkFigures& link) {
 
 Json to_json(const Telemetry& telemetry) {
   const recording::OdometrySample at = recording::to_sample(telemetry);
-  return {{"time_s", static_cast<double>(telemetry.device_time_us) / 1e6},
-          {"mode", std::string(protocol::name(telemetry.state.mode))},
-          {"segment", telemetry.state.tag},
-          {"faults", fault_list(telemetry.state.latched_faults)},
-          {"battery_V", telemetry.battery.mv / 1e3},
-          {"x_m", at.x_m},
-          {"y_m", at.y_m},
-          {"theta_rad", at.theta_rad},
-          {"v_mps", at.v_mps},
-          {"omega_radps", at.omega_radps},
-          {"left", wheel(telemetry.setpoint.left_umps, telemetry.wheel_speed.left_umps, telemetry.duty.left,
-                         telemetry.counts.left)},
-          {"right", wheel(telemetry.setpoint.right_umps, telemetry.wheel_speed.right_umps,
-                          telemetry.duty.right, telemetry.counts.right)}};
+  Json json{{"time_s", static_cast<double>(telemetry.device_time_us) / 1e6},
+            {"mode", std::string(protocol::name(telemetry.state.mode))},
+            {"segment", telemetry.state.tag},
+            {"faults", fault_list(telemetry.state.latched_faults)},
+            {"battery_V", telemetry.battery.mv / 1e3},
+            {"x_m", at.x_m},
+            {"y_m", at.y_m},
+            {"theta_rad", at.theta_rad},
+            {"v_mps", at.v_mps},
+            {"omega_radps", at.omega_radps},
+            {"left", wheel(telemetry.setpoint.left_umps, telemetry.wheel_speed.left_umps, telemetry.duty.left,
+                           telemetry.counts.left)},
+            {"right", wheel(telemetry.setpoint.right_umps, telemetry.wheel_speed.right_umps,
+                            telemetry.duty.right, telemetry.counts.right)}};
+  if (at.gyro) json["gyro"] = gyro_json(*at.gyro, telemetry);
+  return json;
 }
 
 }  // namespace astro::commands

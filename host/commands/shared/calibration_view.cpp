@@ -166,7 +166,7 @@ std::string calibration_text(const Calibration& calibration) {
   const lidar::ScanCalibration* scans = calibration.scans();
   if (scans != nullptr) text += wrapped(experiment::matches_sentence(*scans));
   text += factors_text(calibration);
-  if (ml != nullptr) text += sentence_on_scale(calibration);
+  if (ml != nullptr || scans != nullptr) text += sentence_on_scale(calibration);
   text += ml != nullptr ? '\n' + ml_text(calibration)
           : scans != nullptr
               ? '\n' + scans_text(calibration)
@@ -180,7 +180,8 @@ std::string calibration_summary(const Calibration& calibration) {
       "Standard errors of these drives: " + experiment::described(experiment::precision_of(calibration)) +
       ".";
   if (const lidar::ScanCalibration* scans = calibration.scans())
-    return wrapped(experiment::matches_sentence(*scans)) + wrapped(precision) + scans_text(calibration) +
+    return wrapped(experiment::matches_sentence(*scans)) + wrapped(precision) +
+           sentence_on_scale(calibration) + scans_text(calibration) +
            wrapped(experiment::drift_sentence(calibration.drift)) +
            wrapped(experiment::judgement_sentence(calibration));
   const MlResult* ml = calibration.ml();

@@ -8,6 +8,7 @@
 #include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/drive/record_run.hpp"
+#include "host/recording/telemetry_sample.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::commands {
@@ -23,7 +24,11 @@ void DriveRecording::check(const std::filesystem::path& file) {
 }
 
 DriveRecording::DriveRecording(const std::filesystem::path& file, robot::Client& client)
-    : info_(describe_robot(client)), writer_(file, info_) {}
+    : info_(describe_robot(client)),
+      writer_(file, info_),
+      slips_(client.on<protocol::SlipFound>([this](const protocol::SlipFound& found) {
+        if (begun_) write(recording::to_sample(found));
+      })) {}
 
 DriveRecording::~DriveRecording() {
   try {
@@ -36,6 +41,12 @@ DriveRecording::~DriveRecording() {
 }
 
 void DriveRecording::add(const recording::OdometrySample& sample) {
+  begun_ = true;
+  write(sample);
+}
+
+template <class Sample>
+void DriveRecording::write(const Sample& sample) {
   if (!open_) return;
   try {
     writer_.add(sample);

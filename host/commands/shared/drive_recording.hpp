@@ -14,8 +14,8 @@ recording::RunInfo describe_robot(robot::Client& client);
 /// Records what a robot does while this program drives it, without ground truth.
 class DriveRecording {
  public:
-  static constexpr std::uint32_t kFields =
-      protocol::Telemetry::kPose | protocol::Telemetry::kCounts | protocol::Telemetry::kTwist;
+  static constexpr std::uint32_t kFields = protocol::Telemetry::kPose | protocol::Telemetry::kCounts |
+                                           protocol::Telemetry::kTwist | protocol::Telemetry::kFused;
 
   /// Throws astro::Error if `file` exists, because a recording replaces nothing. Does nothing if it is empty.
   static void check(const std::filesystem::path& file);
@@ -36,10 +36,14 @@ class DriveRecording {
   void close();
 
  private:
+  template <class Sample>
+  void write(const Sample& sample);
+
   recording::RunInfo info_;
   recording::RunWriter writer_;
-  bool open_ = true;
+  bool open_ = true, begun_ = false;
   std::exception_ptr failure_;
+  robot::Subscription slips_;
 };
 
 }  // namespace astro::commands

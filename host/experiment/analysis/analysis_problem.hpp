@@ -17,6 +17,7 @@ enum class AnalysisProblem {
   run_lacks_parameter,   // the same if the run's file is not known; values: its title, and the parameter
   run_without_truth,     // value: the run's name
   no_truth,              // in any run
+  only_some_have_scans,  // values: the name of a run with scans, and of one without
   no_phase_complete,     // value: the experiment's folder
   no_calibration,  // values: the factor that is missing, and the file if it is known; no values for a folder
   factors_of_other_wheel,  // value: the file

@@ -32,9 +32,23 @@ calibration::Options options_for(const MethodChoice& method) {
 
 using Phases = std::span<const std::shared_ptr<const Recordings>>;
 
+/// Scans calibrate by another method than poses, so neither is chosen for a person who has both.
+void refuse_both(Phases phases) {
+  const std::string *with = nullptr, *without = nullptr;
+  for (const auto& phase : phases)
+    for (std::size_t i = 0; i < phase->runs().size(); ++i)
+      (phase->runs()[i].scans.empty() ? without : with) = &phase->names()[i];
+  if (with == nullptr || without == nullptr) return;
+  throw Error(fmt::format("{} has the scans of a laser scanner and {} has none, and both kinds are not "
+                          "calibrated together unless a method is named: leave one kind out",
+                          *with, *without),
+              AnalysisProblem::only_some_have_scans, {*with, *without});
+}
+
 /// What `automatic` means for these runs.
 Family family_of(Phases phases, const MethodChoice& method) {
   if (method.family != Family::automatic) return method.family;
+  refuse_both(phases);
   const auto all = [&](const auto& is) {
     return std::all_of(phases.begin(), phases.end(), [&](const auto& phase) {
       return std::all_of(phase->runs().begin(), phase->runs().end(), is);
@@ -88,10 +102,15 @@ std::vector<std::string> session_names(std::span<const calibration::Trajectory> 
   return names;
 }
 
+double truth_scale_sigma(const recording::Run& run) {
+  if (run.scans.empty() || run.info.truth_scale_sigma > 0) return run.info.truth_scale_sigma;
+  return lidar::kRangeScaleSigma;
+}
+
 double truth_scale_sigma(Phases phases) {
   double most = 0;
   for (const auto& phase : phases)
-    for (const recording::Run& run : phase->runs()) most = std::max(most, run.info.truth_scale_sigma);
+    for (const recording::Run& run : phase->runs()) most = std::max(most, truth_scale_sigma(run));
   return most;
 }
 
@@ -105,11 +124,16 @@ calibration::WheelFactors with_scale_of(const calibration::WheelFactors& scaled,
   return factors;
 }
 
-/// Adds the scale error of the truth to the estimate: it multiplies all three factors alike.
+/// c_R, c_L, b and e, as an error of the scale changes them: all lengths alike.
+Eigen::Vector4d lengths_of(const calibration::WheelFactors& factors) {
+  return {factors.c_r, factors.c_l, factors.b_m, 0};
+}
+
+/// Adds the scale error of the truth to the estimate.
 void add_scale_error(double sigma, const calibration::WheelFactors& loaded,
                      calibration::MlEstimate& estimate) {
   calibration::WheelFactors& factors = estimate.factors;
-  const Eigen::Vector4d lengths(factors.c_r, factors.c_l, factors.b_m, 0);
+  const Eigen::Vector4d lengths = lengths_of(factors);
   // The scale may be unknown. Then the loaded one stays, and the covariance loses what the drives seem to tell about the scale.
   const bool known = std::isfinite(sigma);
   const double keep = (loaded.c_r + loaded.c_l) / (factors.c_r + factors.c_l);
@@ -206,7 +230,8 @@ Calibration by_scans(Phases phases) {
       require_comparable(first.runs().front().info, first.names().front(), run.info, phase->names()[i]);
       drives.push_back(scanned_drive(run, phase->names()[i]));
     }
-  Calibration result = calibration_of(lidar::calibrate_by_scans(drives, last_loaded(phases)));
+  Calibration result =
+      calibration_of(lidar::calibrate_by_scans(drives, last_loaded(phases)), truth_scale_sigma(phases));
   result.robot = identity_of(first.runs().front().info);
   result.wheel = nominal_wheel(first.runs().front().info, first.names().front());
   result.squares = summary_of_squares(*phases.back());
@@ -379,8 +404,11 @@ Calibration calibrate(const Squares& squares, const MethodChoice& method) {
   return result;
 }
 
-Calibration calibration_of(lidar::ScanCalibration found) {
+Calibration calibration_of(lidar::ScanCalibration found, double range_scale_sigma) {
+  const Eigen::Vector4d lengths = lengths_of(found.factors);
+  found.covariance += range_scale_sigma * range_scale_sigma * lengths * lengths.transpose();
   Calibration result;
+  result.truth_scale_sigma = range_scale_sigma;
   result.loaded = found.loaded;
   result.factors = found.factors;
   result.se = factor_errors(found.covariance, result);

@@ -59,7 +59,7 @@ struct Calibration {
   /// End errors of the squares among the runs, if squares of one kind were driven in both directions.
   std::optional<calibration::ExperimentSummary> squares;
   std::variant<calibration::Estimate, MlResult, lidar::ScanCalibration> detail;
-  /// Relative standard error of the scale of the ground truth, which maximum likelihood cannot estimate. It is part of the
+  /// Relative standard error of the scale of the ground truth, which neither maximum likelihood nor scans can show. It is part of the
   /// errors of c_R, c_L, b and S. It is infinite if nobody measured a length; then S stays as loaded, and only E_d and b / S
   /// are found.
   double truth_scale_sigma = 0;
@@ -102,7 +102,7 @@ struct MlChoice {
 /// Whether all truth is on the robot's own clock: as `clock` says or, if that is automatic, as the recordings say.
 bool clock_known(const RunSet& set, MlChoice::Clock clock);
 
-/// automatic: by scans if all runs have scans of a laser scanner, by maximum likelihood if all have moving truth, otherwise by the
+/// automatic: by scans if all runs have scans of a laser scanner, refused if only some have, by maximum likelihood if all have moving truth, otherwise by the
 /// method of calibrate(Squares). The first two take runs of every kind, the methods of end poses take the squares and lines among
 /// them.
 ///
@@ -121,7 +121,8 @@ Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> p
 /// which needs more; and what calibration::estimate_factors and calibration::scale_of_lines throw.
 Calibration calibrate(const Squares& squares, const MethodChoice& method);
 
-/// What scans say, as a calibration. Robot, wheel and squares are not known here.
-Calibration calibration_of(lidar::ScanCalibration found);
+/// What scans say, as a calibration, with the standard error of the common scale of the scanner's ranges in the errors of c_R, c_L, b
+/// and S. Robot, wheel and squares are not known here.
+Calibration calibration_of(lidar::ScanCalibration found, double range_scale_sigma = lidar::kRangeScaleSigma);
 
 }  // namespace astro::experiment

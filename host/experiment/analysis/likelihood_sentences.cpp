@@ -112,12 +112,14 @@ std::string scale_sentence(const Calibration& found) {
     return "Nobody measured a distance in the film, so the scale is not found: S is as loaded. E_d and b / S "
            "are found all the "
            "same.";
+  const lidar::ScanCalibration* scans = found.scans();
+  const calibration::MlErrors errors =
+      scans == nullptr ? found.ml()->estimate.se : calibration::errors_of(scans->covariance, scans->factors);
   return fmt::format(
-      "The scale of the film is known to {:.2g} %, which is part of the errors of c_R, c_L, b and S; E_d and "
-      "b / S "
-      "do not depend on it (b / S {} mm).",
-      100 * found.truth_scale_sigma,
-      with_error(1000 * found.factors.b_m / found.scale(), 1000 * found.ml()->estimate.se.b_over_scale_m, 3));
+      "The scale of the {} is known to {:.2g} %, which is part of the errors of c_R, c_L, b and S; E_d and "
+      "b / S do not depend on it (b / S {} mm).",
+      scans == nullptr ? "ground truth" : "scanner's ranges", 100 * found.truth_scale_sigma,
+      with_error(1000 * found.factors.b_m / found.scale(), 1000 * errors.b_over_scale_m, 3));
 }
 
 std::string wheelbases_text(const calibration::WheelFactors& factors) {

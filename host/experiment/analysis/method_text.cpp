@@ -49,7 +49,8 @@ std::string scans_text(const Calibration& calibration) {
                      "\n\nThe factors are absolute: they refer to the nominal wheel, whatever was loaded in "
                      "the robot while it "
                      "drove.\n\n" +
-                     scanner_sentence(scans) + ' ' + wheelbase_sentence(calibration) + "\n\n";
+                     scanner_sentence(scans) + ' ' + wheelbase_sentence(calibration) + ' ' +
+                     scale_sentence(calibration) + "\n\n";
   for (const Remark& remark : scans.remarks) text += "Take care: " + remark.sentence + ". ";
   return text;
 }

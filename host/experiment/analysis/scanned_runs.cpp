@@ -30,4 +30,9 @@ void give_truth_by_scans(recording::Run& run) {
   run.truth = std::move(truth);
 }
 
+void give_missing_truth_by_scans(std::span<recording::Run> runs) {
+  for (recording::Run& run : runs)
+    if (run.truth.empty() && !run.scans.empty()) give_truth_by_scans(run);
+}
+
 }  // namespace astro::experiment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,7 @@ lidar::ScannedDrive scanned_drive(const recording::Run& run, const std::string& 
 /// Replaces the truth by where the scans say that the robot's middle was, seen from where it was at the first scan. Samples where the
 /// walls do not show it are not valid. Throws as scanned_drive and lidar::path_by_scans do; `run` is unchanged then.
 void give_truth_by_scans(recording::Run& run);
+/// The same for the runs that have scans and no truth, because they were recorded while another program drove.
+void give_missing_truth_by_scans(std::span<recording::Run> runs);
 
 }  // namespace astro::experiment

@@ -2,11 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace astro::experiment {
 
 calibration::Precision precision_of(const Calibration& calibration) {
-  return {calibration.se.E_d / calibration.E_d(), calibration.se.scale / calibration.scale(),
-          calibration.se.b_m / calibration.factors.b_m};
+  const double truth = std::isfinite(calibration.truth_scale_sigma) ? calibration.truth_scale_sigma : 0;
+  const auto by_drives = [&](double error) {
+    return std::sqrt(std::max(error * error - truth * truth, 0.0));
+  };
+  return {calibration.se.E_d / calibration.E_d(), by_drives(calibration.se.scale / calibration.scale()),
+          by_drives(calibration.se.b_m / calibration.factors.b_m)};
 }
 
 bool reaches(const calibration::Precision& precision, double target) {

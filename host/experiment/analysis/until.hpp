@@ -8,8 +8,8 @@
 /// The precision of a calibration, for driving until it is sufficient.
 namespace astro::experiment {
 
-/// Standard errors of the drives themselves over values, because driving on makes no others smaller; NaN if the method does not
-/// determine them.
+/// Standard errors of the drives themselves over values, without that of the ground truth's scale, because driving on makes no others
+/// smaller; NaN if the method does not determine them.
 calibration::Precision precision_of(const Calibration& calibration);
 
 /// All three are known and at most `target`.

@@ -13,6 +13,8 @@
 #include "host/base/utc.hpp"
 #include "host/experiment/analysis/scanned_runs.hpp"
 #include "host/experiment/files/robot_identity.hpp"
+#include "host/recording/run_metadata.hpp"
+#include "host/recording/slip_remark.hpp"
 #include "host/recording/telemetry_sample.hpp"
 #include "host/robot/client/handshake.hpp"
 
@@ -23,7 +25,8 @@ using namespace std::chrono_literals;
 using protocol::Telemetry;
 
 constexpr auto kRest = 700ms;  // at each end; host/recording/rest.hpp needs more than 200 ms
-constexpr std::uint32_t kFields = Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist;
+constexpr std::uint32_t kFields =
+    Telemetry::kPose | Telemetry::kCounts | Telemetry::kTwist | Telemetry::kFused;
 constexpr int kSamplesPerLook = 5;  // odometry samples between two polls of the truth
 
 /// Puts ground truth that is on this computer's clock onto the robot's, by a clock offset that does not
@@ -65,7 +68,8 @@ class Collector {
         subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
           take(recording::to_sample(telemetry));
           if (++count_.odometry % kSamplesPerLook == 0) look();
-        })) {
+        })),
+        slips_(client.on<protocol::SlipFound>([this](const protocol::SlipFound& found) { take(found); })) {
     truth_.poll();  // discards samples from before this run
     truth_.take_scans();
     client_.request(protocol::SetTelemetry{kTelemetryPeriod_ms, kFields});
@@ -102,6 +106,12 @@ class Collector {
     newest_us_ = sample.time_us;
     sink_.odometry(sample);
     moved_(sample);
+  }
+  void take(const protocol::SlipFound& found) {
+    const recording::GyroSlip slip = recording::to_sample(found);
+    if (!first_us_ || slip.time_us < *first_us_) return;
+    sink_.slip(slip);
+    ++count_.slips;
   }
   bool lags(const std::optional<std::int64_t>& newest_us) const {
     return newest_us && *newest_us + 100'000 < newest_us_;
@@ -150,7 +160,7 @@ class Collector {
   std::deque<lidar::Scan> early_scans_;       // the same of scans
   std::optional<std::int64_t> first_us_, newest_truth_us_, newest_scan_us_, stand_from_us_;
   std::int64_t newest_us_ = 0;
-  robot::Subscription subscription_;
+  robot::Subscription subscription_, slips_;
 };
 
 /// What the scans do not show is no reason to lose the drive.
@@ -169,7 +179,8 @@ void drive_recorded(robot::Client& client, truth::Source& truth, const robot::Pa
   client.request(protocol::SetPose{});
   const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
                         [&](const auto& sample) { run.truth.push_back(sample); },
-                        [&](const auto& scan) { run.scans.push_back(scan); }};
+                        [&](const auto& scan) { run.scans.push_back(scan); },
+                        [&](const auto& slip) { run.slips.push_back(slip); }};
   Collector collector(client, truth, sink, hooks.moved);
   const auto stand = [&] {
     collector.stand(kRest, hooks.interrupted);
@@ -233,6 +244,7 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
   drive_recorded(client, truth, path, drive_hooks, hooks, run);
   // The robot is disarmed by now: nobody would look after it while the scans are matched.
   if (!run.scans.empty()) place_by_scans(run, hooks);
+  if (const auto slips = recording::slip_remark(run, recording::run_name(run.info))) hooks.notice(*slips);
   return run;
 }
 
@@ -255,7 +267,7 @@ Recorded record_until(robot::Client& client, truth::Source& truth, const SampleS
       }
     };
   };
-  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth), guarded(sink.scan)};
+  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth), guarded(sink.scan), guarded(sink.slip)};
   Collector collector(client, truth, guard);
   std::optional<Remark> warning;
   try {

@@ -41,7 +41,7 @@ recording::RunInfo info_of(const protocol::HelloReply& robot,
 /// and truth. The robot stands still for more than half a second at both ends, so that the poses
 /// there can be averaged. Truth that is measured afterwards is added by complete(). The robot is not armed before
 /// truth comes. Of a laser scanner on the robot truth is where its scans say that the robot was; if they do not tell, that is a
-/// notice, and the run has scans and no truth.
+/// notice, and the run has scans and no truth. Turns without wheels that the robot's gyro noticed are a notice, too.
 ///
 /// Throws what robot::DriveSession throws (the robot stands then), and astro::Error if the truth does not come or ends.
 recording::Run record_run(robot::Client& client, truth::Source& truth, const robot::Path& path,
@@ -56,11 +56,12 @@ struct SampleSink {
   std::function<void(const recording::OdometrySample&)> odometry;
   std::function<void(const recording::TruthSample&)> truth;
   std::function<void(const lidar::Scan&)> scan = [](const lidar::Scan&) {};
+  std::function<void(const recording::GyroSlip&)> slip = [](const recording::GyroSlip&) {};
 };
 
 struct Recorded {
-  std::uint64_t odometry = 0, truth = 0, scans = 0;  // samples
-  std::optional<Remark> warning;                     // why the recording ended early
+  std::uint64_t odometry = 0, truth = 0, scans = 0, slips = 0;  // samples
+  std::optional<Remark> warning;                                // why the recording ended early
 };
 
 /// Records without driving, until `done` returns true; it is called after each message, at least every 50 ms.

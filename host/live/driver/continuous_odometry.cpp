@@ -29,25 +29,38 @@ void OdometryTrack::set_geometry(const OdometryGeometry& geometry) {
   errors_ = stated_errors_.value_or(uncalibrated_errors(geometry.factors.b_m));
   uncertainty_.emplace(geometry.factors, errors_);
   uncertainty_->restart(heading_rad_.value_or(0), start);
+  const Symmetric3 gyro_start = gyro_uncertainty_ ? gyro_uncertainty_->covariance() : start;
+  gyro_uncertainty_.emplace(geometry.factors, errors_, geometry.gyro);
+  gyro_uncertainty_->restart(gyro_heading_rad_.value_or(heading_rad_.value_or(0)), gyro_start);
 }
 
 void OdometryTrack::restart(double heading_rad, const Symmetric3& start) {
   heading_rad_ = heading_rad;
   last_.reset();
+  gyro_heading_rad_.reset();
   if (uncertainty_) uncertainty_->restart(heading_rad, start);
+  if (gyro_uncertainty_) gyro_uncertainty_->restart(heading_rad, start);
 }
 
 bool OdometryTrack::take(const recording::OdometrySample& sample) {
   bool follows_wheels = true;
+  step_ = {};
   if (last_) {
     const auto right = wrapping_difference(sample.right_counts, last_->right_counts);
     const auto left = wrapping_difference(sample.left_counts, last_->left_counts);
     right_counts_ += right;
     left_counts_ += left;
-    follows_wheels = follows(sample, geometry_.count_m * right, geometry_.count_m * left);
-    if (follows_wheels) uncertainty_->travel(geometry_.count_m * right, geometry_.count_m * left);
+    step_ = {.right_m = geometry_.count_m * right,
+             .left_m = geometry_.count_m * left,
+             .time_s = 1e-6 * static_cast<double>(sample.time_us - last_->time_us)};
+    follows_wheels = follows(sample, step_.right_m, step_.left_m);
+    if (follows_wheels) uncertainty_->travel(step_.right_m, step_.left_m);
   }
-  if (!heading_rad_ || !follows_wheels) uncertainty_->restart(sample.theta_rad);
+  if (!heading_rad_ || !follows_wheels) {
+    uncertainty_->restart(sample.theta_rad);
+    gyro_uncertainty_->restart(sample.theta_rad);
+    gyro_heading_rad_.reset();
+  }
   heading_rad_ = sample.theta_rad;
   last_ = sample;
   return follows_wheels;
@@ -75,11 +88,21 @@ double OdometryTrack::possible_turn_rad(double gap_s) const {
   return kBeyondLimit * std::abs(geometry_.factors.e) * geometry_.fastest_radps * gap_s;
 }
 
-Symmetric3 OdometryTrack::covariance() const {
-  const double count_variance = geometry_.count_m * geometry_.count_m / 12, b_m = geometry_.factors.b_m;
-  const Symmetric3 counts{count_variance / 2, 0, 0, count_variance / 2, 0, 2 * count_variance / (b_m * b_m)};
-  return counts + uncertainty_->covariance();
+void OdometryTrack::take_gyro(const recording::GyroPose& pose, bool counts) {
+  if (gyro_heading_rad_) {
+    step_.turn_rad = pose.theta_rad - *gyro_heading_rad_;
+    step_.gyro_counts = counts;
+    gyro_uncertainty_->advance(step_);
+  }
+  gyro_heading_rad_ = pose.theta_rad;
 }
+
+Symmetric3 OdometryTrack::counts_covariance() const {
+  const double count_variance = geometry_.count_m * geometry_.count_m / 12, b_m = geometry_.factors.b_m;
+  return {count_variance / 2, 0, 0, count_variance / 2, 0, 2 * count_variance / (b_m * b_m)};
+}
+
+Symmetric3 OdometryTrack::covariance() const { return counts_covariance() + uncertainty_->covariance(); }
 
 namespace {
 
@@ -143,6 +166,7 @@ bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& 
   sample_ = recording::to_sample(telemetry);
   settle_unanswered();
   if (!track_.take(sample_)) event_ = "another program has set the pose";
+  if (sample_.gyro) track_.take_gyro(*sample_.gyro, telemetry.fused.gyro == protocol::GyroState::running);
   pose_ = telemetry.pose;
   seen_at_ = session.client().now();
   seen_device_us_ = telemetry.device_time_us;

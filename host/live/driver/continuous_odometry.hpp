@@ -28,6 +28,13 @@ class OdometryTrack {
   /// The covariance then begins at zero. Precondition: set_geometry() was called.
   bool take(const recording::OdometrySample& sample);
 
+  /// Takes the pose with the gyro of the same sample, after take(). `counts`: the gyro counts.
+  void take_gyro(const recording::GyroPose& pose, bool counts);
+  /// Its covariance, as covariance().
+  calibration::Symmetric3 gyro_covariance() const {
+    return counts_covariance() + gyro_uncertainty_->covariance();
+  }
+
   /// The covariance of the newest sample's (x, y, theta), in m and rad. It includes the rounding of the wheel travel to whole
   /// counts.
   calibration::Symmetric3 covariance() const;
@@ -40,6 +47,7 @@ class OdometryTrack {
   std::int64_t right_counts() const { return right_counts_; }
 
  private:
+  calibration::Symmetric3 counts_covariance() const;
   bool follows(const recording::OdometrySample& sample, double right_m, double left_m) const;
   double possible_way_m(double gap_s) const;
   double possible_turn_rad(double gap_s) const;
@@ -48,6 +56,9 @@ class OdometryTrack {
   calibration::OdometryErrors errors_;
   OdometryGeometry geometry_;
   std::optional<calibration::PoseUncertainty> uncertainty_;
+  std::optional<calibration::GyroPoseUncertainty> gyro_uncertainty_;
+  calibration::GyroPoseUncertainty::Step step_;  // of the newest sample
+  std::optional<double> gyro_heading_rad_;       // nothing before the first pose since restart()
   std::optional<recording::OdometrySample> last_;
   std::optional<double> heading_rad_;  // nothing before the first pose
   std::int64_t left_counts_ = 0, right_counts_ = 0;

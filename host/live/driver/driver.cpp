@@ -21,6 +21,15 @@ constexpr microseconds kTick = milliseconds(1), kIdle = milliseconds(5);
 /// The longest time for which a step reads parameters, because a stop has to wait for the end of the step.
 constexpr microseconds kShareOfTable = milliseconds(5);
 
+/// Precondition: there is one.
+recording::OdometrySample at_gyro_pose(recording::OdometrySample sample) {
+  sample.x_m = sample.gyro->x_m;
+  sample.y_m = sample.gyro->y_m;
+  sample.theta_rad = sample.gyro->theta_rad;
+  sample.omega_radps = sample.gyro->omega_radps;
+  return sample;
+}
+
 std::uint16_t period_ms(double rate_hz) {
   return static_cast<std::uint16_t>(std::clamp(std::lround(1000 / rate_hz), 1L, 60'000L));
 }
@@ -186,6 +195,13 @@ void Driver::publish(const protocol::Telemetry& telemetry, std::int64_t time_ns)
                         track.left_counts(),
                         track.right_counts()};
   publications_.odometry.publish(odometry(state, names_), time_ns);
+  if (sample.gyro && publications_.odometry_with_gyro.wanted()) {
+    BaseState with_gyro = state;
+    with_gyro.time_ns = time_ns - 1000 * (sample.time_us - sample.gyro->time_us);
+    with_gyro.sample = at_gyro_pose(sample);
+    with_gyro.covariance = track.gyro_covariance();
+    publications_.odometry_with_gyro.publish(odometry(with_gyro, names_), time_ns);
+  }
   if (publications_.tf.wanted())
     publications_.tf.publish(transforms(state, model_, names_, options_.odom_tf), time_ns);
   if (model_.complete() && publications_.joint_states.wanted())

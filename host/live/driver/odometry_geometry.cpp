@@ -17,11 +17,16 @@ OdometryGeometry OdometryGeometry::of(const std::map<std::string, double>& param
   };
   const double counts_per_turn =
       number("counts_per_motor_rev") * number("gear_numerator") / number("gear_denominator");
+  constexpr double kCalibrated = 1e-3;
+  calibration::GyroErrors gyro;
+  if (const auto scale = parameters.find("gyro_scale"); scale != parameters.end() && scale->second != 1)
+    gyro.scale = kCalibrated;
   return {{number("c_R"), number("c_L"), number("b"), number("e"), number("kappa0")},
           std::numbers::pi * number("wheel_diameter") / counts_per_turn,
           number("observer_bandwidth"),
           number("speed_limit"),
-          number("yaw_rate_limit")};
+          number("yaw_rate_limit"),
+          gyro};
 }
 
 bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "host/calibration/likelihood/gyro_pose_uncertainty.hpp"
 #include "host/calibration/likelihood/pose_uncertainty.hpp"
 #include "host/calibration/motion/wheel_factors.hpp"
 
@@ -15,7 +16,9 @@ struct OdometryGeometry {
   double count_m = 0;                                       // nominal travel of a wheel for one count
   double observer_bandwidth_radps = 0;                      // of the observer of wheel speeds
   double fastest_mps = HUGE_VAL, fastest_radps = HUGE_VAL;  // the robot's limits
+  calibration::GyroErrors gyro = {};
 
+  /// The gyro's scale counts as known to 0.1 % if somebody has set it, and to 1 % as it comes from its maker.
   /// `parameters`: by name, as robot::RemoteParameters::numbers() returns them. Throws astro::Error if one is missing.
   static OdometryGeometry of(const std::map<std::string, double>& parameters);
 };

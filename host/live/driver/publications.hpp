@@ -82,6 +82,7 @@ class Publications {
  public:
   Publications(std::span<Middleware* const> middlewares, const Names& names)
       : odometry(middlewares, {names.absolute("odom"), {}}),
+        odometry_with_gyro(middlewares, {names.absolute("odom_gyro"), {}}),
         tf(middlewares, {names.absolute("/tf"), {}, true, false, 100}),
         tf_static(middlewares, {names.absolute("/tf_static"), {}, true, true, 1}),
         robot_description(middlewares, {names.absolute("robot_description"), {}, true, true, 1}),
@@ -90,7 +91,7 @@ class Publications {
         diagnostics(middlewares, {names.absolute("/diagnostics"), {}}),
         telemetry(middlewares, {names.absolute("telemetry"), {}, false, false, 5}) {}
 
-  Outlet<ros2::msg::Odometry> odometry;
+  Outlet<ros2::msg::Odometry> odometry, odometry_with_gyro;
   Outlet<ros2::msg::TFMessage> tf, tf_static;
   Outlet<ros2::msg::String> robot_description;
   Outlet<ros2::msg::JointState> joint_states;

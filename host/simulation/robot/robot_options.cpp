@@ -68,6 +68,7 @@ sim::Config config_of(const RobotOptions& options) {
   config.counts_per_motor_rev = options.counts_per_motor_rev;
   config.motor_mismatch = options.motor_mismatch;
   config.on_stand = options.on_stand;
+  if (options.gyro) config.gyro.emplace();
   config.wiring = wiring_with(options.wiring_faults);
   if (options.wall_ahead_m)
     config.wall = sim::WallConfig{.x_m = config.body.ahead_m + *options.wall_ahead_m,

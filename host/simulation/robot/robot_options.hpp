@@ -23,6 +23,7 @@ struct RobotOptions {
   double counts_per_motor_rev = sim::Config().counts_per_motor_rev;
   double motor_mismatch = sim::Config().motor_mismatch;  // right motor constant over left, minus one
   bool on_stand = false;                                 // with the wheels off the ground
+  bool gyro = false;                                     // a gyro on its body, its z axis up
   std::vector<std::string> wiring_faults = {};           // by name, as wiring_fault_names() lists them
   std::optional<double> wall_ahead_m = {};               // distance of a straight wall ahead of its front
   std::uint64_t seed = sim::Config().seed;               // of all noise

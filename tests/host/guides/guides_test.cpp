@@ -49,6 +49,7 @@ const std::vector<Setting>& settings() {
        .files = {"scans"},
        .absent = {"/dev/ttyUSB0"},
        .instead = {{"/dev/ttyUSB0", "/nonexistent"}}},
+      {.page = "host/guides/gyro.md", .robot = {"--gyro"}},
       {.page = "host/guides/no-motion.md"},
       {.page = "host/guides/odometry-jumps.md", .absent = {"--roll"}},
       {.page = "host/guides/verdict.md", .files = {"experiment"}},

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/host/lidar/synthetic_room.hpp"
@@ -107,6 +108,39 @@ TEST(ScanCalibration, FindsByHowMuchTheStampsAreLate) {
     EXPECT_NEAR(found.late_s, late_s, 0.005);
     EXPECT_NEAR(found.factors.b_m / kWrong.actual.b_m, 1, 4e-3);
   }
+}
+
+/// The same three drives one after the other, whose scans' stamps are late by so much.
+std::vector<ScannedDrive> drives_late(const std::array<double, 3>& late_s) {
+  std::vector<ScannedDrive> drives;
+  for (std::size_t i = 0; i < late_s.size(); ++i) {
+    Scanner scanner;
+    scanner.late_s = late_s[i];
+    ScannedDrive drive = both_ways(kWrong, scanner, 20 + i, 2);
+    const std::int64_t moved_ns = static_cast<std::int64_t>(i) * 1'000'000'000'000;
+    drive.origin_ns += moved_ns;
+    drive.read_scans = [read = drive.read_scans, moved_ns](const ScanHandler& handle) {
+      read([&](Scan scan) {
+        scan.time_ns += moved_ns;
+        handle(scan);
+      });
+    };
+    drives.push_back(drive);
+  }
+  return drives;
+}
+
+TEST(ScanCalibration, GivesEachDriveAnOffsetOfItsOwnWhereTheScansClockWasSetInBetween) {
+  const ScanCalibration set = calibrate_by_scans(drives_late({0.02, 0.02, -0.13}), kLoaded),
+                        steady = calibrate_by_scans(drives_late({0.02, 0.02, 0.02}), kLoaded);
+  EXPECT_FALSE(has(steady, ScanRemark::clocks_differ));
+  EXPECT_TRUE(has(set, ScanRemark::clocks_differ));
+  EXPECT_NEAR(set.late_spread_s, 0.15, 0.01) << "twice what one drive says";
+  EXPECT_NEAR(set.late_s, -0.03, 0.005) << "the mean";
+  // The scans are the same but for their stamps, so the result is, but for where keyframes fall.
+  EXPECT_NEAR(set.factors.b_m / steady.factors.b_m, 1, 1e-3);
+  EXPECT_NEAR(set.factors.c_r / set.factors.c_l, steady.factors.c_r / steady.factors.c_l, 5e-4);
+  EXPECT_LT(set.choice.rms_m, 1.1 * steady.choice.rms_m);
 }
 
 TEST(ScanCalibration, KnowsThatARobotBeginsATurnWithinAScan) {

@@ -56,6 +56,22 @@ TEST(RosbagExport, HasTheScansOfARunThatHasAny) {
   EXPECT_EQ(scans->last_ns - scans->first_ns, 200'000'000);
 }
 
+TEST(RosbagExport, HasWhatTheGyroSaidOfARobotThatUsesOne) {
+  recording::Run run = driven();
+  for (std::size_t i = 0; i < run.odometry.size(); i += 2)
+    run.odometry[i].gyro = GyroPose{run.odometry[i].time_us, 1, 2, 0.5, 0.1};
+  run.slips = {{150'000, 0.2}};
+  const test::TemporaryFolder folder;
+  export_rosbag(run, folder.path() / "with gyro");
+  const bag::made_bags::Seen seen = bag::made_bags::read(folder.path() / "with gyro");
+  const auto messages = [&](const char* topic, const char* type) {
+    const auto found = std::ranges::find(seen.report.topics, topic, &bag::BagTopic::name);
+    return found != seen.report.topics.end() && found->type == type ? found->messages : 0;
+  };
+  EXPECT_EQ(messages("/odom_gyro", "nav_msgs/msg/Odometry"), (run.odometry.size() + 1) / 2);
+  EXPECT_EQ(messages("/gyro_slip", "astrolabe_msgs/msg/GyroSlip"), 1U);
+}
+
 TEST(RosbagExport, TopicsTimesAndMetadataAgree) {
   const Exported exported;
   const bag::made_bags::Seen seen = bag::made_bags::read(exported.bag);

@@ -13,6 +13,7 @@
 #include "host/recording/recording_problem.hpp"
 #include "host/recording/run_metadata.hpp"
 #include "host/recording/run_writer.hpp"
+#include "host/recording/slip_remark.hpp"
 #include "tests/host/recording/support.hpp"
 #include "tests/support/base/remarks.hpp"
 
@@ -108,6 +109,48 @@ TEST(RunFile, WhatIsReadIsWhatWasWritten) {
     expect_same_info(back.info, run.info);
     expect_same_data(run, back);
   }
+}
+
+TEST(RunFile, PosesWithTheGyroComeBackBesideTheirOdometryWithWholeTurns) {
+  const TempFolder folder;
+  recording::Run run = random_run(7, 60, 40);
+  double off_rad = 0;
+  for (std::size_t i = 10; i < run.odometry.size(); ++i) {
+    if (i == 30) continue;  // the gyro was switched off for a moment
+    OdometrySample& sample = run.odometry[i];
+    sample.gyro = GyroPose{sample.time_us - 7000, 1.5, -2.25, sample.theta_rad + (off_rad += 0.3), 0.125};
+  }
+  write_run(folder / "run.mcap", run);
+  const recording::Run back = read_run(folder / "run.mcap");
+  expect_same_data(run, back);
+  for (std::size_t i = 0; i < run.odometry.size(); ++i) {
+    const auto &wrote = run.odometry[i].gyro, &read = back.odometry[i].gyro;
+    ASSERT_EQ(wrote.has_value(), read.has_value()) << i;
+    if (!wrote) continue;
+    EXPECT_EQ(wrote->time_us, read->time_us);
+    EXPECT_EQ(wrote->x_m, read->x_m);
+    EXPECT_EQ(wrote->y_m, read->y_m);
+    EXPECT_EQ(wrote->omega_radps, read->omega_radps);
+    EXPECT_NEAR(wrote->theta_rad, read->theta_rad, 1e-13);
+  }
+}
+
+TEST(RunFile, SlipsThatTheGyroNoticedComeBackAndAreToldByTimeAndTurn) {
+  const TempFolder folder;
+  recording::Run run = random_run(8, 50, 0);
+  EXPECT_FALSE(slip_remark(run, "square cw 1"));
+  run.slips = {{-40'000, 0.1}, {700'001, -0.25}, {2'000'000, 3.2767}};
+  write_run(folder / "run.mcap", run);
+  const recording::Run back = read_run(folder / "run.mcap");
+  expect_same_data(run, back);
+  ASSERT_EQ(back.slips.size(), run.slips.size());
+  for (std::size_t i = 0; i < run.slips.size(); ++i) {
+    EXPECT_EQ(back.slips[i].time_us, run.slips[i].time_us);
+    EXPECT_EQ(back.slips[i].turn_rad, run.slips[i].turn_rad);
+  }
+  // The run begins at -0.1 s.
+  EXPECT_THAT(slip_remark(back, "square cw 1").value(), Tells(RecordingProblem::turned_unseen, "square cw 1",
+                                                              "5.7", "0.1", "-14.3", "0.8", "187.7", "2.1"));
 }
 
 /// A scan whose numbers are floats, as a message holds them.

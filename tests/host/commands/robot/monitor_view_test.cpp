@@ -22,6 +22,8 @@ protocol::Telemetry extreme() {
   telemetry.duty = {-32768, -32768};
   telemetry.battery.mv = 99'999;
   telemetry.state = {protocol::Mode::stopping, 65535, 0};
+  telemetry.fields = protocol::Telemetry::kAll;
+  telemetry.fused = {0, 0, 0, 1, -999, -99'999'000, 0, -32768, protocol::GyroState::saturated, 65535};
   return telemetry;
 }
 
@@ -62,6 +64,29 @@ TEST(MonitorPicture, SaysThatTheLinkIsLost) {
   EXPECT_THAT(monitor_picture("ASTRO", {}, figures), Not(HasSubstr("LOST")));
   figures.lost = "it was unplugged";
   EXPECT_THAT(monitor_picture("ASTRO", {}, figures), HasSubstr("LOST: it was unplugged"));
+}
+
+TEST(MonitorPicture, ShowsTheGyroOfARobotThatUsesOne) {
+  protocol::Telemetry telemetry;
+  telemetry.fields = protocol::Telemetry::kAll;
+  EXPECT_THAT(monitor_picture("ASTRO", telemetry, {}), Not(HasSubstr("gyro")));
+  EXPECT_FALSE(to_json(telemetry).contains("gyro"));
+  telemetry.fused.gyro = protocol::GyroState::running;
+  telemetry.fused.theta = std::uint64_t{1} << 62;
+  telemetry.fused.rate_uradps = 500'000;
+  telemetry.fused.bias_uradps = -20'000;
+  telemetry.fused.slips = 3;
+  EXPECT_THAT(
+      monitor_picture("ASTRO", telemetry, {}),
+      testing::ContainsRegex("gyro      running +rate +[+]28.65 deg/s   heading +90.00 deg   slips 3"));
+  const Json json = to_json(telemetry)["gyro"];
+  EXPECT_EQ(json["state"], "running");
+  EXPECT_NEAR(json["theta_rad"].get<double>(), 1.5707963, 1e-6);
+  EXPECT_NEAR(json["rate_radps"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(json["bias_radps"].get<double>(), -0.02, 1e-9);
+  EXPECT_FALSE(json.contains("temperature_C")) << "this gyro does not say it";
+  telemetry.fused.temperature_cC = 2534;
+  EXPECT_NEAR(to_json(telemetry)["gyro"]["temperature_C"].get<double>(), 25.34, 1e-9);
 }
 
 TEST(MonitorPicture, NamesLatchedFaults) {

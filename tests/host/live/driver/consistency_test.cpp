@@ -87,8 +87,15 @@ Nees normalised(const ros2::msg::Odometry& odometry, const sim::Pose& truth) {
 /// A drive at random by /cmd_vel.
 class RandomDrive {
  public:
-  RandomDrive(const sim::Config& config, const FactorCovariance& covariance, std::uint64_t seed)
-      : bench_(config, calibrated(covariance)), random_(seed) {
+  /// `topic`: the odometry that is compared.
+  RandomDrive(const sim::Config& config, const FactorCovariance& covariance, std::uint64_t seed,
+              std::string topic = "/odom")
+      : bench_(config, calibrated(covariance)), random_(seed), topic_(std::move(topic)) {
+    if (config.gyro) {
+      bench_.run_ms(300);
+      bench_.set_elsewhere("gyro_axis", 3);
+      bench_.run_ms(1000);  // until the bias is known
+    }
     bench_.run_ms(300);
     EXPECT_TRUE(bench_.call("/arm").success);
   }
@@ -104,12 +111,13 @@ class RandomDrive {
     }
     bench_.call("/stop");  // so that truth and the last message are of one moment
     bench_.run_ms(2000);
-    return normalised(bench_.ros.newest<ros2::msg::Odometry>("/odom"), bench_.robot->board().truth());
+    return normalised(bench_.ros.newest<ros2::msg::Odometry>(topic_), bench_.robot->board().truth());
   }
 
  private:
   support::RobotOnRos bench_;
   std::mt19937_64 random_;
+  std::string topic_;
   double driven_s_ = 0;
 };
 
@@ -133,6 +141,28 @@ TEST(PublishedCovariance, IsThatOfTheErrorsOfTwoHundredRobots) {
                 mean[moment].ours, mean[moment].typed);
     EXPECT_GT(mean[moment].ours, kLeast) << kMoments_s[moment];
     EXPECT_LT(mean[moment].ours, kMost) << kMoments_s[moment];
+  }
+}
+
+TEST(PublishedCovariance, WithAGyroIsThatOfTheErrorsOfTwoHundredRobots) {
+  if (!support::thorough()) GTEST_SKIP() << support::kLeftToThorough;
+  std::mt19937_64 random(kSeed + 1);
+  std::normal_distribution<double> normal;
+  const FactorCovariance covariance = left_by_a_calibration();
+  std::array<double, kMoments_s.size()> mean{};
+  for (int i = 0; i < kDrives; ++i) {
+    sim::Config config = drawn(covariance, random);
+    config.gyro.emplace().scale = 1 + calibration::GyroErrors().scale * normal(random);
+    RandomDrive drive(config, covariance, random(), "/odom_gyro");
+    for (std::size_t moment = 0; moment < kMoments_s.size(); ++moment)
+      mean[moment] += drive.until(kMoments_s[moment]).ours / kDrives;
+  }
+  std::printf("%d robots, seed %u: mean normalised squared error of /odom_gyro, of 3 (95 %%: %.2f to %.2f)\n",
+              kDrives, kSeed + 1, kLeast, kMost);
+  for (std::size_t moment = 0; moment < kMoments_s.size(); ++moment) {
+    std::printf("  after %2d s  %.2f\n", kMoments_s[moment], mean[moment]);
+    EXPECT_GT(mean[moment], kLeast) << kMoments_s[moment];
+    EXPECT_LT(mean[moment], kMost) << kMoments_s[moment];
   }
 }
 

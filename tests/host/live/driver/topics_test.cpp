@@ -329,5 +329,31 @@ TEST(Driver, StampsFollowTheSystemsClockAtOnceWhenItIsSet) {
   }
 }
 
+TEST(OdometryWithGyro, IsPublishedOnceTheRobotUsesItsGyroAndKnowsWhatAKickDid) {
+  sim::Config config = RobotOnRos::quiet();
+  config.gyro.emplace();
+  RobotOnRos bench(config);
+  bench.run_ms(1000);
+  EXPECT_TRUE(bench.ros.published["/odom_gyro"].messages.empty());
+  bench.set_elsewhere("gyro_axis", 3);
+  bench.run_ms(2000);
+  ASSERT_FALSE(bench.ros.published["/odom_gyro"].messages.empty());
+  const auto before = bench.ros.newest<ros2::msg::Odometry>("/odom_gyro");
+  EXPECT_EQ(before.header.frame_id, "odom");
+  EXPECT_EQ(before.child_frame_id, "base_footprint");
+  constexpr double kKick_rad = 0.2;
+  for (int i = 0; i < 100; ++i) {
+    bench.robot->board().kick(kKick_rad / 100);
+    bench.run_ms(1);
+  }
+  bench.run_ms(200);
+  const auto after = bench.ros.newest<ros2::msg::Odometry>("/odom_gyro");
+  // Noise of 0.025 degrees per root second in 0.3 s; a sample is a mean of 5 ms.
+  EXPECT_NEAR(ros2::heading_of(after.pose.pose.orientation) - ros2::heading_of(before.pose.pose.orientation),
+              kKick_rad, 0.002);
+  EXPECT_NEAR(ros2::heading_of(bench.ros.newest<ros2::msg::Odometry>("/odom").pose.pose.orientation), 0, 1e-6)
+      << "no wheel has turned";
+}
+
 }  // namespace
 }  // namespace astro::live
