@@ -15,7 +15,9 @@ bool stops(std::string_view call) {
 }
 
 bool moves(std::string_view call) {
-  constexpr std::array<std::string_view, 4> kMoves{"robot/arm", "robot/drive", "robot/path", "robot/resume"};
+  constexpr std::array<std::string_view, 8> kMoves{"robot/arm",         "robot/drive",       "robot/path",
+                                                   "robot/resume",      "robot/probe_motor", "robot/tune",
+                                                   "robot/load_tuning", "robot/experiment"};
   return std::ranges::find(kMoves, call) != kMoves.end();
 }
 

@@ -42,8 +42,10 @@ void RobotThread::ask(Question question) {
 }
 
 void RobotThread::run() {
-  page::RobotCalls calls(ports_, folder_, [this](page::Page page, const nlohmann::json& event) {
-    delivery_.event(page, 0, event);
+  const auto tell = [this](page::Page page, const nlohmann::json& event) { delivery_.event(page, 0, event); };
+  page::RobotCalls calls(ports_, folder_, tell, [&] {
+    if (const auto question = questions_.pop()) carry_out(calls, *question);
+    return ending_.load();
   });
   page::RealTime pace;
   while (!ending_) try {

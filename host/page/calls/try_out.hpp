@@ -15,6 +15,7 @@ namespace astro::page {
 ///             S     mean diameter as built over the nominal one
 ///             e     by how much gentle arcs turn about another wheelbase than spins
 ///             slip  times that of the robot of the thesis
+///             wiring, counts_per_motor_rev  what is wrong with it (simulated_robot.hpp)
 ///             runs  squares in each direction and phase
 /// events    {"event": "run", "title", "phase", "number", "total"} when a drive begins;
 ///           {"event": "way", "odometry": [x, y, ...], "truth": [x, y, ...]}, m, in the frame of the robot's start of this drive;

@@ -35,6 +35,8 @@ class OpenedRobot {
 
   const std::string& port() const { return port_; }
   bool is_simulated() const { return simulated_ != nullptr; }
+  /// Null for a robot at a port.
+  const std::shared_ptr<simulation::VirtualRobot>& simulation() const { return simulated_; }
   microseconds now() const { return clock_.steady(); }
 
   /// Null while the link is lost.

@@ -11,6 +11,7 @@ enum class RobotCallProblem {
   not_armed,
   halted,
   path_under_way,
+  measuring,
   needs_confirmation
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/experiment/analysis/calibration_file.hpp"
 #include "host/experiment/drive/record_run.hpp"
 #include "host/page/calls/attempt.hpp"
 #include "host/page/calls/question.hpp"
@@ -14,6 +15,7 @@
 #include "host/page/robot/robot_call_problem.hpp"
 #include "host/recording/telemetry_sample.hpp"
 #include "host/robot/client/handshake.hpp"
+#include "host/robot/client/restore.hpp"
 #include "host/robot/motion/other_program.hpp"
 
 namespace astro::page {
@@ -50,8 +52,11 @@ json pose_json(const Pose2& pose) {
 
 }  // namespace
 
-RobotCalls::RobotCalls(RobotPorts ports, std::filesystem::path folder, Tell tell)
-    : ports_(std::move(ports)), folder_(std::move(folder)), tell_(std::move(tell)) {}
+RobotCalls::RobotCalls(RobotPorts ports, std::filesystem::path folder, Tell tell, Meanwhile meanwhile)
+    : ports_(std::move(ports)),
+      folder_(std::move(folder)),
+      tell_(std::move(tell)),
+      meanwhile_(std::move(meanwhile)) {}
 
 RobotCalls::~RobotCalls() {
   try {
@@ -84,19 +89,26 @@ const std::map<std::string_view, json (RobotCalls::*)(Page, const json&)>& Robot
       {"robot/stage", &RobotCalls::stage},
       {"robot/commit", &RobotCalls::commit},
       {"robot/discard", &RobotCalls::discard},
-      {"robot/record", &RobotCalls::record}};
+      {"robot/record", &RobotCalls::record},
+      {"robot/export", &RobotCalls::export_parameters},
+      {"robot/judge_wiring", &RobotCalls::judge_wiring},
+      {"robot/roll", &RobotCalls::roll}};
   return all;
 }
 
 json RobotCalls::answer(Page page, const std::string& call, const json& question, microseconds waited) {
   const auto found = calls().find(call);
-  if (found == calls().end()) return refusal("there is no call '" + call + "'", {call});
+  const auto measurement = measurements().find(call);
+  if (found == calls().end() && measurement == measurements().end())
+    return refusal("there is no call '" + call + "'", {call});
   if (!question.is_object()) return refusal("the question is no object");
+  if (measuring_) return answer_meanwhile(call);
   waited_ = waited;
   json told = attempt(
       [&] {
         try {
-          return (this->*found->second)(page, question);
+          return found != calls().end() ? (this->*found->second)(page, question)
+                                        : measure(page, measurement->second, question);
         } catch (const robot::LinkLost& error) {
           lose(error);
           throw;
@@ -193,6 +205,7 @@ void RobotCalls::forget_robot() {
   newest_.reset();
   watches_.clear();
   parameters_.clear();
+  measurements_ = {};
   other_driver_.clear();
 }
 
@@ -277,6 +290,107 @@ json RobotCalls::record(Page, const json& question) {
   return {{"file", file}};
 }
 
+json RobotCalls::export_parameters(Page, const json&) {
+  experiment::ParameterValues values;
+  for (const robot::ParameterRow& row : known_session().parameters().rows())
+    values[row.name] = robot::to_value(row, row.active);
+  const std::filesystem::path file = std::filesystem::path(kMade) / "robot.toml";
+  std::filesystem::create_directories(folder_ / kMade);
+  experiment::write_parameters(folder_ / file, values);
+  return {{"file", file.string()}};
+}
+
+const std::map<std::string_view, RobotCalls::Measure>& RobotCalls::measurements() {
+  static const std::map<std::string_view, Measure> all{{"robot/probe_motor", &Measurements::probe_motor},
+                                                       {"robot/push", &Measurements::push},
+                                                       {"robot/tune", &Measurements::tune},
+                                                       {"robot/load_tuning", &Measurements::load_tuning},
+                                                       {"robot/experiment", &Measurements::experiment}};
+  return all;
+}
+
+json RobotCalls::judge_wiring(Page, const json& question) {
+  return measurements_.judge_wiring(known_session(), question);
+}
+json RobotCalls::roll(Page, const json& question) {
+  live::RobotSession& found = known_session();
+  return measurements_.roll(found, fresh_telemetry(), question);
+}
+
+/// A measurement asks for a telemetry of its own, so none of it is shown or recorded meanwhile.
+json RobotCalls::measure(Page page, Measure what, const json& question) {
+  require_no_close();
+  driving_.require_free_for(page);
+  if (recording_) throw Error("a recording is under way: end it first", {}, {recording_->file()});
+  live::RobotSession& found = known_session();
+  driving_.end(found);
+  robot::DriveHooks drive;
+  drive.interrupted = [this] { return measurement_has_to_end(); };
+  const auto tell = [&](const json& event) { tell_(page, event); };
+  const auto ended = [&] {
+    while (found.take_sample()) {
+    }
+    found.take_fault();
+    ask_for_telemetry();
+    found.parameters().refresh();
+    found.note_parameters();
+  };
+  stop_measurement_ = false;
+  report_at_ = robot_->now();
+  try {
+    const robot::Restore measuring(measuring_, std::optional(page));
+    const json told = (measurements_.*what)({*robot_, found, drive, tell, folder_}, question);
+    ended();
+    return told;
+  } catch (const robot::LinkLost&) {
+    throw;
+  } catch (...) {
+    ended();
+    throw;
+  }
+}
+
+bool RobotCalls::measurement_has_to_end() {
+  constexpr microseconds kBetweenReports = milliseconds(200);
+  while (robot_->session()->take_sample()) {
+  }
+  if (robot_->now() >= report_at_) {
+    report_at_ = robot_->now() + kBetweenReports;
+    report();
+  }
+  // A question that is answered from within ends here, too.
+  if (meanwhile_()) stop_measurement_ = true;
+  return stop_measurement_;
+}
+
+/// The link is not given up here, because the measurement still uses it.
+json RobotCalls::answer_meanwhile(const std::string& call) {
+  return attempt(
+      [&]() -> json {
+        const bool emergency = call == "robot/emergency_stop";
+        if (!emergency && call != "robot/stop" && call != "robot/pause" && call != "robot/disarm")
+          throw Error("the robot is being measured: stop it, or ask again when that is done",
+                      RobotCallProblem::measuring);
+        stop_measurement_ = true;
+        if (emergency) session().ask(protocol::EmergencyStop{});
+        return {{"notice", emergency ? "the motors are off" : "the measurement ends"}};
+      },
+      remedies_of);
+}
+
+/// Telemetry that the robot took after this call.
+const Telemetry& RobotCalls::fresh_telemetry() {
+  live::RobotSession& found = known_session();
+  const std::uint64_t asked_us = found.device_now_us();
+  const microseconds end = found.client().now() + seconds(1);
+  while (!newest_ || newest_->device_time_us < asked_us) {
+    if (found.client().now() >= end) throw Error("the robot sends no telemetry: ask again");
+    found.pump(milliseconds(20));
+    take_samples(found);
+  }
+  return *newest_;
+}
+
 void RobotCalls::step(microseconds most) {
   if (!robot_) return report();
   const microseconds until = robot_->now() + most;
@@ -335,8 +449,9 @@ void RobotCalls::lose(const Error& why) {
 RobotState RobotCalls::state() const {
   RobotState state;
   state.open = robot_ != nullptr;
-  state.armed = driving_.armed();
-  state.driver = driving_.driver();
+  state.measuring = measuring_.has_value();
+  state.armed = driving_.armed() || state.measuring;
+  state.driver = measuring_.value_or(driving_.driver());
   state.telemetry = newest_;
   if (robot_ && robot_->link().losses() > 0 && newest_ == std::nullopt)
     state.why_lost = robot_->link().why().what();
@@ -349,7 +464,7 @@ void RobotCalls::report() {
   const microseconds now = robot_ ? robot_->now() : ports_.clock.steady();
   if (const auto event = state_report_.take(state(), now)) tell_(kAllPages, *event);
   if (const auto event = driving_.path_event(newest_.value_or(Telemetry{}), now)) tell_(kAllPages, *event);
-  if (!robot_ || !newest_) return;
+  if (!robot_ || !newest_ || measuring_) return;
   for (auto& [page, each] : watches_) {
     const auto samples = each.batch(now);
     if (!samples) continue;
@@ -366,6 +481,10 @@ void RobotCalls::leave(Page page) {
   watches_.erase(page);
   parameters_.erase(page);
   if (!robot_) return;
+  if (measuring_) {
+    if (*measuring_ == page) stop_measurement_ = true;
+    return;
+  }
   try {
     if (live::RobotSession* found = robot_->session()) driving_.leave(*found, page);
     ask_for_telemetry();  // last: a stop does not wait for it

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "host/page/robot/driving_calls.hpp"
+#include "host/page/robot/measurements.hpp"
 #include "host/page/robot/opened_robot.hpp"
 #include "host/page/robot/parameter_calls.hpp"
 #include "host/page/robot/signal_watch.hpp"
@@ -22,15 +23,19 @@ namespace astro::page {
 ///
 /// Errors   answers, never exceptions: {"error": {"sentence", "values", "remedies"}}.
 /// Threads  one.
-/// Waits    answer() for the robot's answers, at most as long as the link's time-outs; step() as it is told.
+/// Waits    answer() for the robot's answers, at most as long as the link's time-outs; step() as it is told. Only a measurement drives
+///          until it is done; `Meanwhile` may answer() others from within, of which those are carried out that stop the robot.
 class RobotCalls {
  public:
   static constexpr Page kAllPages = 0;
   /// Receives an event for one page, or for all of them.
   using Tell = std::function<void(Page, const nlohmann::json& event)>;
+  /// Called at least every 50 ms while a measurement drives the robot; true ends it, with the robot at rest and disarmed.
+  using Meanwhile = std::function<bool()>;
 
   /// `folder`: where recordings are written.
-  RobotCalls(RobotPorts ports, std::filesystem::path folder, Tell tell);
+  RobotCalls(
+      RobotPorts ports, std::filesystem::path folder, Tell tell, Meanwhile meanwhile = [] { return false; });
   /// A robot that a page drives is brought to rest and disarmed, which may take seconds.
   ~RobotCalls();
   RobotCalls(const RobotCalls&) = delete;
@@ -84,7 +89,16 @@ class RobotCalls {
   Answer commit(Page page, const nlohmann::json& question);
   Answer discard(Page page, const nlohmann::json& question);
   Answer record(Page page, const nlohmann::json& question);
+  Answer export_parameters(Page page, const nlohmann::json& question);
+  Answer judge_wiring(Page page, const nlohmann::json& question);
+  Answer roll(Page page, const nlohmann::json& question);
 
+  using Measure = Answer (Measurements::*)(const Measurements::Task&, const nlohmann::json&);
+  static const std::map<std::string_view, Measure>& measurements();
+  Answer measure(Page page, Measure what, const nlohmann::json& question);
+  bool measurement_has_to_end();
+  Answer answer_meanwhile(const std::string& call);
+  const protocol::Telemetry& fresh_telemetry();
   OpenedRobot& robot();
   live::RobotSession& session() { return robot().required_session(); }
   live::RobotSession& known_session();
@@ -108,6 +122,11 @@ class RobotCalls {
   DrivingCalls driving_;                       // behind robot_, whose session it may use
   std::map<Page, ParameterCalls> parameters_;  // a page puts in force what it has staged, and nobody else has
   std::map<Page, SignalWatch> watches_;
+  Meanwhile meanwhile_;
+  Measurements measurements_;      // of this robot
+  std::optional<Page> measuring_;  // for this page, at this moment
+  bool stop_measurement_ = false;
+  microseconds report_at_{};     // of a measurement
   bool closing_ = false;         // the robot is brought to rest first
   std::uint16_t stream_ms_ = 0;  // the period of the telemetry that was asked for
   std::optional<protocol::Telemetry> newest_;

@@ -44,7 +44,8 @@ json to_json(const RobotState& state) {
              {"moving", nullptr},
              {"faults", json::array()},
              {"battery_V", nullptr}};
-  if (!state.telemetry) return event;
+  if (state.measuring) event["mode"] = "measuring", event["moving"] = true;
+  if (!state.telemetry || state.measuring) return event;
   event["mode"] = protocol::name(state.telemetry->state.mode);
   event["moving"] = moves(*state.telemetry);
   event["faults"] = faults_json(state.telemetry->state.latched_faults);

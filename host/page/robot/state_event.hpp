@@ -12,6 +12,7 @@ namespace astro::page {
 /// What the event `state` says.
 struct RobotState {
   bool open = false, armed = false;
+  bool measuring = false;                        // the robot drives a measurement by itself, armed
   int driver = 0;                                // the page, or 0
   std::optional<protocol::Telemetry> telemetry;  // the newest; none while the link is lost
   std::string why_lost;                          // "" while the link is up

@@ -11,78 +11,13 @@
 
 #include "host/page/robot/real_time.hpp"
 #include "host/recording/run_file.hpp"
-#include "tests/support/base/temporary_folder.hpp"
-#include "tests/support/ros2/robot_on_ros.hpp"
+#include "tests/host/page/pages.hpp"
 
 namespace astro::page {
 namespace {
 
-using nlohmann::json;
-using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::string sentence(const json& answer) {
-  return answer.contains("error") ? answer["error"]["sentence"].get<std::string>() : "";
-}
-
-/// The value of a parameter in the answer to a call.
-json value_in(const json& told, const std::string& name) {
-  for (const json& each : told.at("parameters"))
-    if (each["name"] == name) return each["value"];
-  return nullptr;
-}
-
-/// Pages and their calls, without a network. Time is that of the robot and passes in run_ms() alone.
-class Pages : public testing::Test {
- protected:
-  static constexpr Page kFirst = 1, kSecond = 2;
-
-  json ask(const std::string& call, const json& question = json::object(), Page page = kFirst) {
-    return calls().answer(page, "robot/" + call, question);
-  }
-  json result(const std::string& call, const json& question = json::object(), Page page = kFirst) {
-    const json told = ask(call, question, page);
-    EXPECT_TRUE(told.contains("result")) << call << ": " << told;
-    return told.value("result", json());
-  }
-  RobotCalls& calls() {
-    if (!calls_)
-      calls_.emplace(ports_, folder_.path(), [this](Page page, const json& event) {
-        events_.push_back({page, event});
-      });
-    return *calls_;
-  }
-
-  void run_ms(int ms) {
-    for (int passed = 0; passed < ms; passed += 10) calls().step(milliseconds(10));
-  }
-  /// Asks for a velocity as a page does while a key is held down.
-  void drive_ms(int ms, double v_mps, Page page = kFirst) {
-    for (int passed = 0; passed < ms; passed += 100) {
-      ask("drive", {{"v_mps", v_mps}, {"w_radps", 0}}, page);
-      run_ms(100);
-    }
-  }
-
-  std::vector<json> events(const std::string& kind, Page page = RobotCalls::kAllPages) const {
-    std::vector<json> found;
-    for (const auto& [to, event] : events_)
-      if (event.at("event") == kind && to == page) found.push_back(event);
-    return found;
-  }
-  json state() const { return events("state").back(); }
-  /// What a robot says once it had time to say it.
-  json state_after_ms(int ms) {
-    run_ms(ms);
-    return state();
-  }
-
-  RobotPorts ports_;
-  test::TemporaryFolder folder_;
-  std::vector<std::pair<Page, json>> events_;
-  std::optional<RobotCalls> calls_;
-};
 
 class SimulatedRobot : public Pages {
  protected:
@@ -433,33 +368,6 @@ TEST_F(SimulatedRobot, AnEmergencyStopDoesNotWaitForTheRampOfAClose) {
   EXPECT_FALSE(state()["open"].get<bool>()) << "the motors are off, and there is nothing to wait for";
 }
 
-/// A robot at the end of a cable.
-class RobotAtAPort : public Pages {
- protected:
-  RobotAtAPort() {
-    ports_.list = [] { return std::vector<RobotPort>{{"/dev/robot", "astro"}}; };
-    ports_.open = [this](const std::string& path) {
-      opened_ = path;
-      return cable_.open();
-    };
-    ports_.clock = {[this] { return microseconds(static_cast<std::int64_t>(robot_->board().world_us())); },
-                    [] { return std::int64_t{0}; }};
-  }
-  /// A lost link lets no time pass.
-  void pass_ms(int ms) {
-    for (int i = 0; i < ms; ++i) {
-      robot_->step();
-      calls().step({});
-    }
-  }
-  bool moves() { return !support::drive_of(*robot_).wheels().stopped(); }
-
-  std::shared_ptr<simulation::VirtualRobot> robot_ =
-      std::make_shared<simulation::VirtualRobot>(support::RobotOnRos::quiet(), simulation::MocapConfig{});
-  support::Cable cable_{robot_};
-  std::string opened_;
-};
-
 TEST_F(RobotAtAPort, IsListedAndOpenedByItsPath) {
   EXPECT_EQ(result("ports")["ports"][0]["path"], "/dev/robot");
   const json told = result("open", {{"port", "/dev/robot"}});
@@ -536,6 +444,8 @@ TEST(RealTime, FollowsTheWallAndDoesNotMakeUpForAHiddenTab) {
   EXPECT_EQ(due_ms(1050, 5080), 0);
   EXPECT_EQ(due_ms(61'000, 5080), 250);
   EXPECT_EQ(due_ms(61'020, 5330), 20) << "the minute is forgotten";
+  EXPECT_EQ(due_ms(61'040, 95'330), 0) << "a measurement was driven at once";
+  EXPECT_EQ(due_ms(61'060, 95'330), 20) << "and nobody waits for the wall to follow";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ import { DataPage } from "./data_page";
 import { LivePage } from "./live/live_page";
 import { Robot } from "./live/robot";
 import { Strip } from "./live/strip";
+import { SetupPage } from "./setup/setup_page";
 import { TryPage } from "./try_page";
 
 const { calls: backend, robot: reaches_robot } = chosen_backends();
@@ -18,6 +19,7 @@ if (reaches_robot.has_ports) void robot.open_present();
 const kPages = [
   { at: "#try", name: "Try", title: "Try it on a simulated robot" },
   { at: "#data", name: "Your data", title: "Calibrate from your data" },
+  { at: "#setup", name: "Set up", title: "Set up a robot" },
   { at: "#live", name: "Live", title: "Watch and drive a robot" },
 ];
 const page_at = (hash: string) => kPages.find((each) => each.at === hash) ?? kPages[0]!;
@@ -60,6 +62,9 @@ function Page() {
         </div>
         <div hidden={page.at !== "#data"}>
           <DataPage backend={backend} />
+        </div>
+        <div hidden={page.at !== "#setup"}>
+          <SetupPage robot={robot} />
         </div>
         <div hidden={page.at !== "#live"}>
           <LivePage robot={robot} />

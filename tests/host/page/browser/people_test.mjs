@@ -6,6 +6,7 @@ import { library } from "../module/places.mjs";
 import { in_browser } from "./browser.mjs";
 import { drive_files, sizes } from "./drive_files.mjs";
 import { arm, button, in_mode, panel, simulate } from "./live.mjs";
+import { look_at_both, press } from "./setup.mjs";
 
 const axe = readFileSync(library.resolve("axe-core/axe.min.js"), "utf8");
 
@@ -34,6 +35,39 @@ const pages = {
       for (const closed of await page.locator("details:visible > summary").all()) await closed.click();
       await page.getByRole("button", { name: "Calibrate", exact: true }).click();
       await page.getByRole("alert").waitFor({ timeout: 60_000 });
+    },
+  ],
+  "Set up, before a robot": ["#setup", async (page) => page.getByText("How else it is built").click()],
+  "Set up, with wires to be mended": [
+    "#setup",
+    async (page) => {
+      await button(page, "Simulate this robot").click();
+      await look_at_both(page);
+      await panel(page, "Wires").getByText("the motors are swapped").waitFor();
+    },
+  ],
+  "Set up, with a tuning": [
+    "#setup",
+    async (page) => {
+      for (const each of await page.getByRole("checkbox").filter({ visible: true }).all()) await each.uncheck();
+      await button(page, "Simulate this robot").click();
+      await page.getByRole("button", { name: /^Speed control/ }).click();
+      await press(page, "Speed control", "The floor is free: measure", panel(page, "Speed control").getByRole("table"));
+    },
+  ],
+  "Set up, with the choice of ground truths": [
+    "#setup",
+    async (page) => {
+      await button(page, "Simulate this robot").click();
+      await page.getByRole("button", { name: /^Ground truth/ }).click();
+    },
+  ],
+  "Set up, at its end": [
+    "#setup",
+    async (page) => {
+      await button(page, "Simulate this robot").click();
+      for (let i = 0; i < 7; ++i) await button(page, "Skip this step").click();
+      await button(page, "Save this robot's page").waitFor();
     },
   ],
   "Live, before a robot": [

@@ -7,8 +7,12 @@ import path from "node:path";
 import { createInterface } from "node:readline";
 import { astrolabe, page } from "../module/places.mjs";
 
+/** Where programs look for simulated robots: those of other tests are not found. */
+const runtime = mkdtempSync(path.join(os.tmpdir(), "page-runtime-"));
+process.on("exit", () => rmSync(runtime, { recursive: true }));
+
 async function started(...words) {
-  const program = spawn(astrolabe, words, { stdio: ["ignore", "pipe", "pipe"] });
+  const program = spawn(astrolabe, words, { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_RUNTIME_DIR: runtime } });
   let said = "";
   program.stderr.on("data", (text) => (said += text));
   const lines = createInterface({ input: program.stdout });

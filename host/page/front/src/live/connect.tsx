@@ -8,7 +8,7 @@ interface Port {
   what: string;
 }
 
-function Ports({ robot, busy, open }: { robot: Robot; busy: boolean; open: (question: object) => void }) {
+export function Ports({ robot, busy, open }: { robot: Robot; busy: boolean; open: (question: object) => void }) {
   const [ports, set_ports] = useState<Port[] | null>(null);
   const [problem, set_problem] = useState("");
   const look = () => {

@@ -143,6 +143,11 @@ export class Robot {
     if (this.drive.holds) void this.stop();
   }
 
+  /** Nobody may be looking any more, or a question is open: a robot that is armed for this page is stopped. */
+  leave_alone() {
+    if (this.is_mine) void this.stop();
+  }
+
   private async enter(question: unknown) {
     const opened = await this.backend.ask<Opened>("robot/open", question);
     this.question = opened.simulated ? question : { port: opened.port };

@@ -1,0 +1,82 @@
+import { useState } from "preact/hooks";
+import { type Event_, Refusal } from "../backend";
+import type { Robot } from "../live/robot";
+import type { Rolled } from "./counts_step";
+import { type Length, LengthField } from "./length_field";
+import { changes_text } from "./put_in_force";
+import { Problem, type StepProps, use_work, Verdict } from "./step";
+
+/** Until the path that is driven ends; rejects if it ends early. */
+function end_of_path(robot: Robot): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const leave = robot.backend.listen((event: Event_) => {
+      if (event.event === "connection" && !event.up) leave(), reject(new Refusal("the robot was lost on its way"));
+      if (event.event !== "path" || event.ended === null) return;
+      leave();
+      if (event.ended === "finished") resolve();
+      else reject(new Refusal(event.ended as string));
+    });
+  });
+}
+
+/** How far the simulated robot has really come, if somebody sees it. */
+const seen_m = (robot: Robot, from: { x_m: number; y_m: number } | null) => {
+  const to = robot.truth.pose;
+  return from && to ? Number(Math.hypot(to.x_m - from.x_m, to.y_m - from.y_m).toFixed(3)) : 1;
+};
+
+/** The robot drives a metre by itself, and a person measures it. */
+export function MetreStep({ robot, load, finish }: StepProps) {
+  const [driven, set_driven] = useState(false);
+  const [length, set_length] = useState<Length>({ value: 1, unit: "m" });
+  const [rolled, judge] = useState<Rolled | null>(null);
+  const { busy, problem, work } = use_work();
+  const drive = () =>
+    work(async () => {
+      judge(null);
+      set_driven(false);
+      const from = robot.truth.pose;
+      await robot.backend.ask("robot/roll", { begin: true });
+      await robot.backend.ask("robot/arm", {});
+      try {
+        const ended = end_of_path(robot);
+        await robot.backend.ask("robot/path", { kind: "line", size_m: 1, speed_mps: 0.2 });
+        await ended;
+      } finally {
+        await robot.backend.ask("robot/disarm", {});
+      }
+      set_length({ value: seen_m(robot, from), unit: "m" });
+      set_driven(true);
+    });
+  const compare = () => work(async () => judge(await robot.backend.ask<Rolled>("robot/roll", { distance_m: length.value })));
+  const take = ({ sentence, parameters }: Rolled) =>
+    work(async () => {
+      if (await load(parameters, true)) finish([`mended: ${sentence}`]);
+    });
+  return (
+    <>
+      <p>Mark where the robot stands, and keep 1.5 m ahead of it free. It drives one metre by itself, slowly; then measure how far it came.</p>
+      {!driven && (
+        <button type="button" disabled={busy} aria-busy={busy} onClick={drive}>The floor is free: drive one metre</button>
+      )}
+      {driven && (
+        <form class="settings" onSubmit={(event) => { event.preventDefault(); compare(); }}>
+          <LengthField label="It came" length={length} set={set_length} units={["m"]} />
+          <button type="submit" disabled={busy}>Compare</button>
+          <button type="button" class="secondary" disabled={busy} onClick={drive}>Drive another metre</button>
+        </form>
+      )}
+      {rolled && (
+        <Verdict good={rolled.agrees}>
+          <p>{rolled.sentence}</p>
+          {Object.keys(rolled.parameters).length > 0 && <p>To be loaded: {changes_text(robot, rolled.parameters)}.</p>}
+          <div class="row">
+            {rolled.agrees && <button type="button" onClick={() => finish([`one metre was ${length.value} m: ${rolled.sentence}`])}>Go on</button>}
+            {Object.keys(rolled.parameters).length > 0 && <button type="button" disabled={busy} onClick={() => take(rolled)}>Mend it: load them</button>}
+          </div>
+        </Verdict>
+      )}
+      <Problem sentence={problem} />
+    </>
+  );
+}
