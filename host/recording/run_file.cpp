@@ -26,6 +26,12 @@ namespace {
 constexpr std::size_t kFreeSamples = 300'000, kLeastBytesPerSample = 20;
 
 /// The samples of a file's messages, before poses and counts are paired.
+/// A pose with the gyro is at most 10 ms older than its odometry.
+bool is_of(const GyroPose& pose, const OdometrySample& sample) {
+  constexpr std::int64_t kApart_us = 20'000;
+  return pose.time_us <= sample.time_us && pose.time_us > sample.time_us - kApart_us;
+}
+
 struct Streams {
   std::string file;
   std::size_t most = 0;  // samples
@@ -54,8 +60,9 @@ struct Streams {
     if (schema->name == ros2::odometry_type().name && channel.topic == "/odom") {
       keep(odometry, recording::decode_odometry(message.data));
     } else if (schema->name == ros2::odometry_type().name && channel.topic == "/odom_gyro") {
-      // It stands behind its odometry in the file.
-      if (!odometry.empty()) odometry.back().gyro = recording::decode_gyro_pose(message.data);
+      // It stands behind its odometry in the file. In a damaged file that may be missing.
+      const auto pose = recording::decode_gyro_pose(message.data);
+      if (pose && !odometry.empty() && is_of(*pose, odometry.back())) odometry.back().gyro = pose;
     } else if (schema->name == recording::wheel_counts_type().name && channel.topic == "/wheel_counts") {
       keep(counts, recording::decode_counts(message.data));
     } else if (schema->name == ros2::pose_stamped_type().name && channel.topic == "/truth") {

@@ -7,7 +7,7 @@ namespace {
 
 // As in the robot's filter: it learns the bias in half a second, takes no stand before 0.1 s, and trusts the wheels to 3 urad in
 // 10 ms then.
-constexpr double kLearn_s = 0.5, kSettle_s = 0.1, kStep_s = 0.01, kAtRest_rad = 3e-6;
+constexpr double kLearn_s = 0.5, kSettle_s = 0.1, kStep_s = 0.01, kAtRest_rad = 3e-6, kGate = 6;
 
 }  // namespace
 
@@ -78,16 +78,24 @@ void GyroPoseUncertainty::rest(const Step& step, Matrix& propagation, Matrix& no
       walk * of_walk * of_walk.transpose() + wheels * of_wheels * of_wheels.transpose();
 }
 
+// More than the noise and the bias can be.
+bool GyroPoseUncertainty::is_pushed(const Step& step) const {
+  const double walk = gyro_.random_walk_rad * gyro_.random_walk_rad * step.time_s;
+  const double bias = covariance_(kBias, kBias) * step.time_s * step.time_s;
+  return std::abs(step.turn_rad) > kGate * std::sqrt(walk + bias);
+}
+
 void GyroPoseUncertainty::advance(const Step& step) {
   Matrix propagation = Matrix::Identity(), noise = Matrix::Zero();
   const bool moves = step.right_m != 0 || step.left_m != 0;
-  rested_s_ = moves ? 0 : rested_s_ + step.time_s;
+  rested_s_ = moves || (step.gyro_counts && is_pushed(step)) ? 0 : rested_s_ + step.time_s;
   if (!step.gyro_counts)
     turn_by_wheels(step, propagation, noise);
   else if (rested_s_ > kSettle_s)
     rest(step, propagation, noise);
   else
     turn_by_gyro(step, propagation, noise);
+  if (step.saturated) noise(kTheta, kTheta) += step.turn_rad * step.turn_rad;
   if (moves) move(step, propagation, noise);
   noise(kBias, kBias) += gyro_.bias_walk_radps * gyro_.bias_walk_radps * step.time_s;
   covariance_ = propagation * covariance_ * propagation.transpose() + noise;

@@ -22,7 +22,9 @@ struct GyroErrors {
 ///   e_theta += e_bias T + e_scale phi + walk sqrt(T),   (e_x, e_y) += travel's error along the heading + d e_theta across it
 ///
 /// At rest the wheels say that nothing turns. The robot's filter then corrects heading and bias with the gains of a Kalman filter,
-/// and the position not, which is what is computed here. While the gyro does not count, the heading's error grows as the wheels'.
+/// and the position not, which is what is computed here. A robot whose wheels stand and that turns all the same was pushed: then the
+/// gyro alone counts. While the gyro does not count, the heading's error grows as the wheels', and by the whole turn while it is
+/// saturated.
 ///
 /// Source  the robot's own filter (common/kinematics/heading_filter.hpp); the curvature effect e of the wheels is left out, which
 ///         matters only while the gyro does not count
@@ -38,6 +40,7 @@ class GyroPoseUncertainty {
     double turn_rad = 0;             // of the pose with the gyro
     double time_s = 0;
     bool gyro_counts = false;  // its bias is known, and it works
+    bool saturated = false;    // it does not count, but the robot has turned at least so far
   };
   void advance(const Step& step);
 
@@ -48,6 +51,7 @@ class GyroPoseUncertainty {
   using Matrix = Eigen::Matrix<double, 8, 8>;
   using Vector = Eigen::Matrix<double, 8, 1>;
 
+  bool is_pushed(const Step& step) const;
   void move(const Step& step, Matrix& propagation, Matrix& noise) const;
   void turn_by_gyro(const Step& step, Matrix& propagation, Matrix& noise) const;
   void turn_by_wheels(const Step& step, Matrix& propagation, Matrix& noise) const;

@@ -81,6 +81,7 @@ void give_truth(experiment::RunSet& set, const std::vector<film::NamedFilm>& fil
   const std::optional<double> readout_s =
       figures.readout_ms ? std::optional(1e-3 * *figures.readout_ms) : std::nullopt;
   say_report(film::attach_films(set, films, readout_s));
+  for (recording::Run& run : set.runs) run.scans.clear();  // who names a film does not mean the scanner
 }
 
 void require_film_for(const FilmOptions& figures, bool film) {

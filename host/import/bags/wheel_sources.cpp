@@ -29,7 +29,7 @@ bool is_wheel_odometry(const bag::BagTopic& topic) {
     return false;
   return std::ranges::none_of(words_of(topic.name), [](const std::string& word) {
     for (const char* other : {"amcl", "slam", "ekf", "ukf", "filtered", "fused", "visual", "vio", "laser",
-                              "lidar", "icp", "rgbd", "localization", "gps", "map"})
+                              "lidar", "icp", "rgbd", "localization", "gps", "map", "gyro", "imu"})
       if (word == other) return true;
     return false;
   });

@@ -25,6 +25,8 @@ constexpr double kBeyondLimit = 1.5;  // a robot that overshoots its limits, or 
 
 void OdometryTrack::set_geometry(const OdometryGeometry& geometry) {
   const Symmetric3 start = uncertainty_ ? uncertainty_->covariance() : Symmetric3{};
+  // The robot then begins its pose with the gyro anew, where the wheels' is.
+  if (geometry.gyro_settings != geometry_.gyro_settings) gyro_heading_rad_.reset();
   geometry_ = geometry;
   errors_ = stated_errors_.value_or(uncalibrated_errors(geometry.factors.b_m));
   uncertainty_.emplace(geometry.factors, errors_);
@@ -61,6 +63,7 @@ bool OdometryTrack::take(const recording::OdometrySample& sample) {
     gyro_uncertainty_->restart(sample.theta_rad);
     gyro_heading_rad_.reset();
   }
+  if (!sample.gyro) gyro_heading_rad_.reset();
   heading_rad_ = sample.theta_rad;
   last_ = sample;
   return follows_wheels;
@@ -88,11 +91,14 @@ double OdometryTrack::possible_turn_rad(double gap_s) const {
   return kBeyondLimit * std::abs(geometry_.factors.e) * geometry_.fastest_radps * gap_s;
 }
 
-void OdometryTrack::take_gyro(const recording::GyroPose& pose, bool counts) {
+void OdometryTrack::take_gyro(const recording::GyroPose& pose, protocol::GyroState state) {
   if (gyro_heading_rad_) {
     step_.turn_rad = pose.theta_rad - *gyro_heading_rad_;
-    step_.gyro_counts = counts;
+    step_.gyro_counts = state == protocol::GyroState::running;
+    step_.saturated = state == protocol::GyroState::saturated;
     gyro_uncertainty_->advance(step_);
+  } else {
+    gyro_uncertainty_->restart(pose.theta_rad, uncertainty_->covariance());
   }
   gyro_heading_rad_ = pose.theta_rad;
 }
@@ -166,7 +172,7 @@ bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& 
   sample_ = recording::to_sample(telemetry);
   settle_unanswered();
   if (!track_.take(sample_)) event_ = "another program has set the pose";
-  if (sample_.gyro) track_.take_gyro(*sample_.gyro, telemetry.fused.gyro == protocol::GyroState::running);
+  if (sample_.gyro) track_.take_gyro(*sample_.gyro, telemetry.fused.gyro);
   pose_ = telemetry.pose;
   seen_at_ = session.client().now();
   seen_device_us_ = telemetry.device_time_us;

@@ -21,13 +21,20 @@ constexpr microseconds kTick = milliseconds(1), kIdle = milliseconds(5);
 /// The longest time for which a step reads parameters, because a stop has to wait for the end of the step.
 constexpr microseconds kShareOfTable = milliseconds(5);
 
-/// Precondition: there is one.
-recording::OdometrySample at_gyro_pose(recording::OdometrySample sample) {
-  sample.x_m = sample.gyro->x_m;
-  sample.y_m = sample.gyro->y_m;
-  sample.theta_rad = sample.gyro->theta_rad;
-  sample.omega_radps = sample.gyro->omega_radps;
-  return sample;
+/// The same state with the gyro's pose, and with its rate while it counts. Precondition: the sample has one.
+BaseState with_gyro(BaseState state, const OdometryTrack& track, bool counts) {
+  recording::OdometrySample& sample = state.sample;
+  const recording::GyroPose& gyro = *sample.gyro;
+  state.time_ns -= 1000 * (sample.time_us - gyro.time_us);
+  state.covariance = track.gyro_covariance();
+  sample.x_m = gyro.x_m;
+  sample.y_m = gyro.y_m;
+  sample.theta_rad = gyro.theta_rad;
+  if (!counts) return state;
+  sample.omega_radps = gyro.omega_radps;
+  state.twist.vw = 0;
+  state.twist.ww = gyro_rate_variance(gyro.omega_radps, track.geometry().gyro);
+  return state;
 }
 
 std::uint16_t period_ms(double rate_hz) {
@@ -195,12 +202,12 @@ void Driver::publish(const protocol::Telemetry& telemetry, std::int64_t time_ns)
                         track.left_counts(),
                         track.right_counts()};
   publications_.odometry.publish(odometry(state, names_), time_ns);
-  if (sample.gyro && publications_.odometry_with_gyro.wanted()) {
-    BaseState with_gyro = state;
-    with_gyro.time_ns = time_ns - 1000 * (sample.time_us - sample.gyro->time_us);
-    with_gyro.sample = at_gyro_pose(sample);
-    with_gyro.covariance = track.gyro_covariance();
-    publications_.odometry_with_gyro.publish(odometry(with_gyro, names_), time_ns);
+  // The robot has a new one every 10 ms.
+  if (sample.gyro && sample.gyro->time_us != published_gyro_us_ &&
+      publications_.odometry_with_gyro.wanted()) {
+    published_gyro_us_ = sample.gyro->time_us;
+    const bool counts = telemetry.fused.gyro == protocol::GyroState::running;
+    publications_.odometry_with_gyro.publish(odometry(with_gyro(state, track, counts), names_), time_ns);
   }
   if (publications_.tf.wanted())
     publications_.tf.publish(transforms(state, model_, names_, options_.odom_tf), time_ns);

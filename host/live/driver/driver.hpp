@@ -105,6 +105,7 @@ class Driver {
   bool set_up_ = false;                                            // the robot has what the options say
   bool restarted_ = false;                                         // the robot, in the session before
   std::int64_t published_ns_ = 0;                                  // since 1970
+  std::int64_t published_gyro_us_ = 0;                             // on the robot's clock
   std::int64_t battery_ns_ = 0, looked_ns_ = 0, reported_ns_ = 0;  // on the steady clock
   ros2::msg::DiagnosticArray reported_;
 };

@@ -21,12 +21,18 @@ OdometryGeometry OdometryGeometry::of(const std::map<std::string, double>& param
   calibration::GyroErrors gyro;
   if (const auto scale = parameters.find("gyro_scale"); scale != parameters.end() && scale->second != 1)
     gyro.scale = kCalibrated;
+  std::array<double, 3> settings{};
+  for (std::size_t i = 0; const char* name : {"gyro_axis", "gyro_scale", "gyro_lag"}) {
+    if (const auto at = parameters.find(name); at != parameters.end()) settings[i] = at->second;
+    ++i;
+  }
   return {{number("c_R"), number("c_L"), number("b"), number("e"), number("kappa0")},
           std::numbers::pi * number("wheel_diameter") / counts_per_turn,
           number("observer_bandwidth"),
           number("speed_limit"),
           number("yaw_rate_limit"),
-          gyro};
+          gyro,
+          settings};
 }
 
 bool same(const calibration::WheelFactors& a, const calibration::WheelFactors& b) {

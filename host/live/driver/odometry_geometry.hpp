@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -17,6 +18,7 @@ struct OdometryGeometry {
   double observer_bandwidth_radps = 0;                      // of the observer of wheel speeds
   double fastest_mps = HUGE_VAL, fastest_radps = HUGE_VAL;  // the robot's limits
   calibration::GyroErrors gyro = {};
+  std::array<double, 3> gyro_settings = {};  // gyro_axis, gyro_scale, gyro_lag
 
   /// The gyro's scale counts as known to 0.1 % if somebody has set it, and to 1 % as it comes from its maker.
   /// `parameters`: by name, as robot::RemoteParameters::numbers() returns them. Throws astro::Error if one is missing.

@@ -53,4 +53,11 @@ TwistCovariance twist_covariance(double v_mps, double omega_radps, double period
   return sum;
 }
 
+double gyro_rate_variance(double omega_radps, const calibration::GyroErrors& errors) {
+  constexpr double kMean_s = 0.01, kLearn_s = 0.5;
+  const double walk = errors.random_walk_rad * errors.random_walk_rad,
+               scale_radps = errors.scale * omega_radps;
+  return walk / kMean_s + walk / kLearn_s + scale_radps * scale_radps;
+}
+
 }  // namespace astro::live

@@ -29,4 +29,7 @@ double count_ripple_variance(const OdometryGeometry& geometry);
 TwistCovariance twist_covariance(double v_mps, double omega_radps, double period_s,
                                  const OdometryGeometry& geometry, const calibration::OdometryErrors& errors);
 
+/// Variance of a gyro's rate over 10 ms, in (rad/s)^2: of its walk, of its scale, and of its bias, as half a second at rest shows it.
+double gyro_rate_variance(double omega_radps, const calibration::GyroErrors& errors);
+
 }  // namespace astro::live

@@ -107,7 +107,7 @@ Taken measured_once(Work work) {
     taken.peak_bytes = std::stoull(text);
     taken.complaint = text.substr(blank + 1);
   }
-  const double slow = (slow_before + slowness()) / 2;
+  const double slow = std::min(slow_before, slowness());
   taken.cpu_s = (static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
                  1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec)) /
                 slow;

@@ -73,6 +73,24 @@ TEST(GyroPoseUncertainty, AStandShowsTheBiasAndWinsBackTheHeadingThatItHasCost) 
   EXPECT_LT(std::sqrt(stood.covariance().tt), driven / 3);
 }
 
+TEST(GyroPoseUncertainty, ARobotThatIsTurnedByHandIsAsUncertainAsTheGyrosScale) {
+  constexpr double kScale = 0.01, kTurn_rad = 1.5;
+  GyroPoseUncertainty uncertainty(kFactors, no_wheel_errors(), only(1e-5, kScale));
+  repeat(uncertainty, rest(), 2);
+  Step push = rest();
+  push.turn_rad = kTurn_rad * kStep_s;
+  repeat(uncertainty, push, 1);
+  repeat(uncertainty, rest(), 2);
+  EXPECT_NEAR(std::sqrt(uncertainty.covariance().tt), kScale * kTurn_rad, 0.01 * kScale * kTurn_rad);
+}
+
+TEST(GyroPoseUncertainty, ATurnBeyondTheGyrosRangeMayBeTwiceAsFar) {
+  GyroPoseUncertainty uncertainty(kFactors, no_wheel_errors(), only(1e-5, 0));
+  repeat(uncertainty, rest(), 2);
+  uncertainty.advance({.turn_rad = 0.2, .time_s = kStep_s, .saturated = true});
+  EXPECT_GE(std::sqrt(uncertainty.covariance().tt), 0.2);
+}
+
 TEST(GyroPoseUncertainty, WithoutAGyroThatCountsTheHeadingIsAsUncertainAsTheWheels) {
   OdometryErrors errors{2.645e-6, FactorCovariance::Zero()};
   errors.factors(0, 0) = 1e-6;

@@ -350,7 +350,7 @@ TEST_F(BagWheels, OdometryIsTakenOnlyIfThereIsNothingElse) {
   std::vector<std::array<double, 2>> travel;
   std::vector<Sent> sent = odometry_of({1, 1, 0.3}, travel);
   Sent filtered = sent[0];
-  for (const char* other : {"/odometry/filtered", "/vicon/odom", "/ground_truth/odom"}) {
+  for (const char* other : {"/odometry/filtered", "/odom_gyro", "/vicon/odom", "/ground_truth/odom"}) {
     filtered.topic = other;
     sent.push_back(filtered);
   }

@@ -353,6 +353,23 @@ TEST(OdometryWithGyro, IsPublishedOnceTheRobotUsesItsGyroAndKnowsWhatAKickDid) {
               kKick_rad, 0.002);
   EXPECT_NEAR(ros2::heading_of(bench.ros.newest<ros2::msg::Odometry>("/odom").pose.pose.orientation), 0, 1e-6)
       << "no wheel has turned";
+  EXPECT_GT(after.pose.covariance[35], std::pow(0.009 * kKick_rad, 2)) << "of a scale that is known to 1 %";
+}
+
+TEST(OdometryWithGyro, HasTheYawRateOfTheWheelsWhileTheGyroDoesNotCount) {
+  sim::Config config = RobotOnRos::quiet();
+  config.gyro.emplace();
+  RobotOnRos bench(config);
+  bench.set_elsewhere("gyro_axis", 3);
+  bench.run_ms(3000);
+  bench.call("/arm");
+  bench.drive_ms(1500, 0, 0.5);
+  const auto counting = bench.ros.newest<ros2::msg::Odometry>("/odom_gyro");
+  EXPECT_NEAR(counting.twist.twist.angular.z, 0.5, 0.05);
+  EXPECT_GT(counting.twist.covariance[35], std::pow(0.004, 2)) << "4.4 mrad/s of noise in 10 ms";
+  bench.robot->board().gyro().set_fault(sim::GyroFault::unplugged);
+  bench.drive_ms(1000, 0, 0.5);
+  EXPECT_NEAR(bench.ros.newest<ros2::msg::Odometry>("/odom_gyro").twist.twist.angular.z, 0.5, 0.05);
 }
 
 }  // namespace
