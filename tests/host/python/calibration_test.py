@@ -4,8 +4,11 @@ import json
 import math
 import os
 import pathlib
+import signal
 import subprocess
+import sys
 import tempfile
+import threading
 import unittest
 from typing import Any
 
@@ -118,6 +121,40 @@ class SimulatedDrives(unittest.TestCase):
             self.assertEqual(row["rms"][0], by_name[row["method"]]["rms"]["E_d"])
 
 
+    def test_a_ctrl_c_ends_a_drive_and_leaves_the_robot_usable(self) -> None:
+        robot = calibration.SimulatedRobot()
+        go = threading.Lock()
+        go.acquire()
+
+        def press() -> None:
+            with go:
+                signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+
+        # So long a switch interval gives the thread its turn only when the drive releases Python's lock.
+        self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(600)
+        pressing = threading.Thread(target=press)
+        pressing.start()
+        path = 1000 * astrolabe.square(10)
+        with self.assertRaises(KeyboardInterrupt):
+            go.release()
+            robot.drive(path)
+        pressing.join()
+        self.assertEqual(robot.drive(astrolabe.line(0.1)).facts["board"], "sim")
+
+    def test_threads_take_turns_at_one_robot(self) -> None:
+        robot = calibration.SimulatedRobot()
+        runs: list[calibration.Run] = []
+        threads = [threading.Thread(target=lambda: runs.append(robot.drive(astrolabe.line(0.3)))) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for _ in range(3):
+            self.assertEqual(robot.parameters["b"], 0.29)
+        for thread in threads:
+            thread.join()
+        for run in runs:
+            self.assertAlmostEqual(run.odometry["x_m"][-1], 0.3, delta=2e-3)  # what the speed loop leaves of a stop
+        self.assertEqual(len(runs), 3)
 
 
 class Arrays(unittest.TestCase):
