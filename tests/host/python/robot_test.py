@@ -10,6 +10,7 @@ import tempfile
 import threading
 import tty
 import unittest
+from dataclasses import replace
 from unittest import mock
 
 try:
@@ -19,6 +20,7 @@ except ImportError as missing:
     raise unittest.SkipTest(f"{missing}: install python3-numpy and python3-serial")
 
 import astrolabe
+from astrolabe import messages
 from astrolabe.line import open_line
 from astrolabe.messages import ErrorCode, Fault, Mode
 
@@ -145,6 +147,16 @@ class Parameters(WithRobot):
             self.robot.parameters.set({"b": 0.28, "over_speed": limit / 2})
         self.robot.parameters.refresh()
         self.assertEqual(self.robot.parameters["b"].value, 0.29)
+
+    def test_a_value_that_the_robot_refuses_to_stage_leaves_nothing_staged(self) -> None:
+        row = self.robot.parameters["c_R"]
+        wider = replace(row, info=replace(row.info, maximum=2**31 - 1))  # as a table of another firmware would say
+        self.enterContext(mock.patch.dict(self.robot.parameters._rows, {"c_R": wider}))
+        assert row.maximum is not None
+        with self.assertRaises(astrolabe.RobotRefused):
+            self.robot.parameters.set({"b": 0.28, "c_R": 1.2 * row.maximum})
+        held = self.robot.client.request(messages.GetParameter(self.robot.parameters["b"].info.id))
+        self.assertEqual(held.staged, held.active)
 
     def _let_velocities_last(self) -> None:
         """A simulator in fast motion may drive for tenths of a second between two requests."""
