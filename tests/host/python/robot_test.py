@@ -11,6 +11,7 @@ import threading
 import tty
 import unittest
 from dataclasses import replace
+from typing import Any
 from unittest import mock
 
 try:
@@ -21,6 +22,7 @@ except ImportError as missing:
 
 import astrolabe
 from astrolabe import messages
+from astrolabe.codec import Message
 from astrolabe.line import open_line
 from astrolabe.messages import ErrorCode, Fault, Mode
 
@@ -74,6 +76,46 @@ class Driving(WithRobot):
             drive.set_velocity(0.2, 0)
             raise KeyboardInterrupt
         self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def _interrupt(self, kind: type[Message], times: int, *, sent: bool) -> None:
+        """Ctrl-C at the first requests of this kind: before the robot has them, or before its reply is seen."""
+        request = self.robot.client.request
+        left = times
+
+        def interrupted(message: Any, *others: Any) -> Any:
+            nonlocal left
+            now = isinstance(message, kind) and left > 0
+            reply = None if now and not sent else request(message, *others)
+            if now:
+                left -= 1
+                raise KeyboardInterrupt
+            return reply
+
+        self.enterContext(mock.patch.object(self.robot.client, "request", interrupted))
+
+    def test_a_ctrl_c_before_the_reply_to_arm_disarms(self) -> None:
+        self._interrupt(messages.Arm, 1, sent=True)
+        with self.assertRaises(KeyboardInterrupt), self.robot.drive():
+            self.fail("the block began")
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_ctrl_c_while_the_robot_ramps_down_disarms(self) -> None:
+        self._interrupt(messages.Stop, 1, sent=True)
+        with self.assertRaises(KeyboardInterrupt), self.robot.drive() as drive:
+            drive.set_velocity(0.2, 0)
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_ctrl_c_at_the_disarm_disarms_again(self) -> None:
+        self._interrupt(messages.Disarm, 1, sent=False)
+        with self.assertRaises(KeyboardInterrupt), self.robot.drive() as drive:
+            drive.set_velocity(0.2, 0)
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_ctrl_c_that_keeps_the_robot_armed_is_not_stopped(self) -> None:
+        self._interrupt(messages.Disarm, 2, sent=False)
+        with self.assertRaisesRegex(astrolabe.NotStopped, "KeyboardInterrupt"), self.robot.drive():
+            pass
+        self.assertNotEqual(self.robot.status().mode, Mode.disarmed)
 
     def test_a_robot_with_a_fault_is_not_armed_until_a_person_clears_it(self) -> None:
         self.robot.emergency_stop()
