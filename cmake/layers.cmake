@@ -121,7 +121,7 @@ set(ASTRO_OUTSIDE
   "netinet/                 : host/base"
   "csignal                  : host/console"
   "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/programs host/python host/recording host/robot host/simulation host/truth host/wall"
-  "atomic condition_variable future mutex shared_mutex stop_token thread : host/base host/commands host/console host/live/dashboard host/live/dds host/live/foxglove host/live/web host/robot/client host/robot/port host/robot/sharing host/simulation/server host/truth/live"
+  "atomic condition_variable future mutex shared_mutex stop_token thread : host/base host/commands host/console host/live/dashboard host/live/dds host/live/foxglove host/live/web host/python/native host/robot/client host/robot/port host/robot/sharing host/simulation/server host/truth/live"
 
   # Files, and what is printed.
   "filesystem               : host/base host/commands host/console host/emulator host/experiment host/film host/formats host/import host/live/dashboard host/live/web host/page host/programs host/python host/recording host/report host/robot/port host/simulation/room host/simulation/server host/truth/files host/truth/live host/wall"

@@ -247,6 +247,7 @@ ImportedDrives import_held(std::vector<HeldDrive> held, const ImportChoices& cho
     try {
       require_times(one.wheels.track.samples, "the wheels");
       require_times(one.truth.samples, "the ground truth");
+      orient(one.wheels.track, choices.wheels);
       ImportedTruth truth{std::move(one.truth), {}};
       truth.lost = truth::mark_lost(truth.track);
       drives.push_back(

@@ -35,13 +35,22 @@ std::vector<JointPair> joints_in(const std::vector<std::string>& sides) {
   return pairs;
 }
 
+/// Written so that a NaN is refused, too.
+std::optional<double> within(const Limits& limits, const char* name, std::optional<double> size) {
+  if (size && !(*size >= limits.least && *size <= limits.most))
+    throw Error(fmt::format("{} is {}, and must be from {} to {}", name, *size, limits.least, limits.most),
+                StatementProblem::size_beyond_limits,
+                {name, fmt::to_string(*size), fmt::to_string(limits.least), fmt::to_string(limits.most)});
+  return size;
+}
+
 RobotGeometry geometry_of(const StatedDrives& drives) {
   RobotGeometry geometry;
   if (!drives.robot_file.empty()) geometry = read_robot_file(drives.robot_file, drives.controller);
   RobotGeometry given;
-  given.wheel_diameter_m = drives.wheel_diameter_m;
-  given.counts_per_turn = drives.counts_per_turn;
-  given.wheelbase_m = drives.wheelbase_m;
+  given.wheel_diameter_m = within(kWheelDiameterLimits_m, "wheel_diameter", drives.wheel_diameter_m);
+  given.counts_per_turn = within(kCountsPerTurnLimits, "counts_per_turn", drives.counts_per_turn);
+  given.wheelbase_m = within(kWheelbaseLimits_m, "wheelbase", drives.wheelbase_m);
   if (const auto joints = joints_in(drives.joints); !joints.empty()) given.joints = joints.front();
   return geometry.overridden_by(given);
 }
@@ -92,7 +101,8 @@ ImportChoices choices_of(const StatedDrives& drives) {
   ImportChoices choices;
   choices.geometry = geometry_of(drives);
   choices.wheels.table = drives.table;
-  choices.wheels.bag.counter_range = drives.table.counter_range;
+  choices.wheels.table.counter_range = choices.wheels.bag.counter_range =
+      within(kCounterRangeLimits, "counter_range", drives.table.counter_range);
   choices.wheels.bag.topic = drives.wheels_topic;
   choices.wheels.bag.joints = choices.geometry.joints;
   if (const auto joints = joints_in(drives.joints); !joints.empty())

@@ -12,8 +12,15 @@
 namespace astro::importing {
 
 /// What is wrong with a statement itself. Values: of not_paired how many files of wheels and of ground truth there are; of
-/// unknown_axis and unknown_unit the word.
-enum class StatementProblem { not_paired, unknown_axis, unknown_unit, joints_not_paired, frames_not_two };
+/// unknown_axis and unknown_unit the word; of size_beyond_limits its name, its value and both limits.
+enum class StatementProblem {
+  not_paired,
+  unknown_axis,
+  unknown_unit,
+  joints_not_paired,
+  frames_not_two,
+  size_beyond_limits
+};
 
 /// From the least to the most that is taken for a size of a robot.
 struct Limits {

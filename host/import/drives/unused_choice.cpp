@@ -118,4 +118,13 @@ void refuse_choices_unused_with_scans(const StatedDrives& drives) {
   refuse_unused_choices(drives);
 }
 
+void refuse_choices_unused_with_arrays(const StatedDrives& drives) {
+  using enum Choice;
+  const std::vector<Choice> of_files{wheel_columns, per_interval, counter_range, truth_columns,
+                                     wheels_topic,  wheels_unit,  joints,        truth_topic,
+                                     truth_frames,  truth_unit,   body};
+  for (const Choice choice : stated_choices(drives))
+    if (std::ranges::count(of_files, choice) > 0) throw UnusedChoice(choice, "the drives are arrays");
+}
+
 }  // namespace astro::importing

@@ -62,4 +62,7 @@ void refuse_unused_choices(const StatedDrives& drives);
 /// than the wheelbase.
 void refuse_choices_unused_with_scans(const StatedDrives& drives);
 
+/// The same if the drives are arrays of a program, which have one unit, no columns and no topics to choose.
+void refuse_choices_unused_with_arrays(const StatedDrives& drives);
+
 }  // namespace astro::importing

@@ -60,12 +60,16 @@ WheelTrack read_wheel_table(const fs::path& path, const WheelTable& table) {
   return wheels_in_table(as_text(text), path.string(), table);
 }
 
+void orient(WheelTrack& track, const WheelSelection& selection) {
+  if (selection.exchanged)
+    for (WheelSample& sample : track.samples) std::swap(sample.left, sample.right);
+  if (selection.reversed)
+    for (WheelSample& sample : track.samples) sample = {sample.time_ns, -sample.left, -sample.right};
+}
+
 ImportedWheels read_wheels(const fs::path& path, const WheelSelection& selection) {
   ImportedWheels wheels = read(path, selection);
-  if (selection.exchanged)
-    for (WheelSample& sample : wheels.track.samples) std::swap(sample.left, sample.right);
-  if (selection.reversed)
-    for (WheelSample& sample : wheels.track.samples) sample = {sample.time_ns, -sample.left, -sample.right};
+  orient(wheels.track, selection);
   return wheels;
 }
 

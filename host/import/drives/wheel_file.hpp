@@ -32,6 +32,9 @@ bool is_own_recording(const std::filesystem::path& path);
 /// The wheels in a table, also packed with gzip or in UTF-16. Throws as wheels_in_table and tables::text_of_file do.
 WheelTrack read_wheel_table(const std::filesystem::path& path, const WheelTable& table);
 
+/// Undoes what a person states about the wheels: exchanged sides, encoders that count backward.
+void orient(WheelTrack& track, const WheelSelection& selection);
+
 /// The wheels in a table, in a bag, or in a recording of this project; the content shows which it is. Throws
 /// as read_wheel_table, wheels_in_bag and read_run do.
 ImportedWheels read_wheels(const std::filesystem::path& path, const WheelSelection& selection = {});

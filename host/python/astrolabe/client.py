@@ -8,7 +8,7 @@ from typing import Any, Callable, Iterator, TypeVar
 
 from astrolabe import messages
 from astrolabe.codec import DecodeError, Framer, Message, Request, decode, encode_frame, header
-from astrolabe.errors import LinkLost, PortError, RobotRefused
+from astrolabe.errors import AstrolabeError, LinkLost, PortError, RobotRefused
 from astrolabe.line import Line
 from astrolabe.messages import ErrorCode, ErrorReply, HelloReply
 
@@ -67,7 +67,12 @@ class Client:
         self._line.close()
 
     def connect(self) -> HelloReply:
-        """Shakes hands. Raises PortError if no robot answers, or one of another protocol version."""
+        """Shakes hands.
+
+        Raises:
+            PortError: no robot answers, or one of another protocol version.
+            AstrolabeError: the robot's answer cannot be understood.
+        """
         for _ in range(_DRAIN_READS):
             if not self._line.read(0):
                 break
@@ -77,7 +82,7 @@ class Client:
         if body is None:
             raise PortError(self._why_no_robot())
         if body[0] == ErrorReply.ID:
-            error = decode(ErrorReply, body)
+            error = self._understand(ErrorReply, body, "Hello")
             if error.code == ErrorCode.wrong_version:
                 self._require_version(error.detail)
             raise RobotRefused("Hello", error.code, error.detail)
@@ -91,6 +96,7 @@ class Client:
         Raises:
             RobotRefused: the robot has not carried it out.
             LinkLost: no answer came; it may have been carried out.
+            AstrolabeError: the answer cannot be understood; it may have been carried out.
             ValueError: a value that its field cannot hold; nothing was sent.
         """
         request_id = self._take_id()
@@ -179,9 +185,13 @@ class Client:
         elif request_id == self._waiting_for and self._reply is None:
             self._reply = body
         if message_id == messages.Pong.ID:
+            try:
+                device_us = decode(messages.Pong, body).device_time_us
+            except DecodeError:
+                return  # no sign of life
             if self._ping is not None and self._ping[0] == request_id:
                 self._ping = None
-            self._note_time(decode(messages.Pong, body).device_time_us)
+            self._note_time(device_us)
             self._answered_us = self._device_us
             self._lost_pings = 0
 
@@ -231,7 +241,7 @@ class Client:
         try:
             return decode(kind, body)
         except DecodeError:
-            raise LinkLost(
+            raise AstrolabeError(
                 f"the answer of {self.name} to {request} cannot be understood although its check sum is right: "
                 "firmware and this package differ; update both"
             ) from None

@@ -42,13 +42,14 @@ class Drive:
         LinkLost: the robot has gone or restarted.
     and at the end of the block
         NotStopped: the robot did not confirm that it is at rest and disarmed.
+    A Ctrl-C while the robot ramps down disarms it at once.
     """
 
     def __init__(self, client: Client) -> None:
         self._client = client
         self._listening = ExitStack()
         self._fault: Fault | None = None
-        self._booted = False
+        self._booted = self._disarmed = False
         self._accepted = self._done = self._aborted = 0
 
     def __enter__(self) -> Drive:
@@ -66,8 +67,13 @@ class Drive:
         with self._listening:
             try:
                 self._rest_and_disarm()
-            except Exception as why:
-                raise NotStopped(f"the robot did not confirm that it stopped, and may still be moving: {why}") from (error or why)
+            except BaseException as why:
+                if self._disarmed and not isinstance(why, Exception):
+                    raise
+                reason = str(why) or type(why).__name__
+                raise NotStopped(
+                    f"the robot did not confirm that it stopped, and may still be moving: {reason}"
+                ) from (error or why)
         if self._fault is not None and error is None:
             self._fail(self._fault)
 
@@ -151,8 +157,15 @@ class Drive:
             self._require_no_other_fault()  # another may have come while the robot ramped down
             self._client.request(messages.ClearFaults())
         self._fault = None
+        self._disarmed = False
         self._status_unless_stopped()  # checked last, directly before Arm
-        self._command(messages.Arm())
+        try:
+            self._command(messages.Arm())
+        except Exception:
+            raise  # refused, or the robot cannot be reached
+        except BaseException:  # a Ctrl-C before the reply: the robot may be armed
+            self._disarm()
+            raise
 
     def _status_unless_stopped(self) -> messages.Status:
         """A stop between two drives of this program also holds for the next one."""
@@ -240,6 +253,18 @@ class Drive:
         except LinkLost:
             raise  # it cannot be disarmed either
         except BaseException:
-            self._client.request(messages.Disarm())
+            self._disarm()
             raise
-        self._client.request(messages.Disarm())
+        self._disarm()
+
+    def _disarm(self) -> None:
+        """A Ctrl-C before the reply is raised after a second request."""
+        try:
+            self._client.request(messages.Disarm())
+        except Exception:
+            raise
+        except BaseException:
+            self._client.request(messages.Disarm())
+            self._disarmed = True
+            raise
+        self._disarmed = True

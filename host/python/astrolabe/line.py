@@ -17,6 +17,8 @@ from astrolabe.errors import LinkLost, PortError
 DEFAULT_BAUD = 1_000_000
 _GREETING_S = 1.0  # an idle holder greets within a millisecond
 _CONNECT_S = 5.0
+_WRITE_S = 1.0  # a message takes milliseconds, unless the other end does not read
+_HOLDER_CHANGES_S = 1.0  # a program that starts or ends holds the port for a moment in which it does not share it
 _POLL_S = 0.01  # a read looks at its deadline this often
 _READ_BYTES = 4096
 
@@ -83,7 +85,7 @@ class SerialLine:
 
         self._name = path
         self._serial_error = serial.SerialException
-        self._port = serial.Serial(path, baud, timeout=_POLL_S, exclusive=True)
+        self._port = serial.Serial(path, baud, timeout=_POLL_S, write_timeout=_WRITE_S, exclusive=True)
 
     @property
     def name(self) -> str:
@@ -109,6 +111,10 @@ class SerialLine:
         self._port.close()
 
 
+class _NotShared(PortError):
+    """Another program has the port, and does not share it now."""
+
+
 def open_line(address: str, baud: int = DEFAULT_BAUD) -> Line:
     """Opens the line to a robot.
 
@@ -119,9 +125,14 @@ def open_line(address: str, baud: int = DEFAULT_BAUD) -> Line:
     Raises:
         PortError: it cannot be opened; the sentence says why.
     """
-    if address.startswith("tcp:"):
-        return _open_tcp(address)
-    return _open_serial(address, baud)
+    deadline = time.monotonic() + _HOLDER_CHANGES_S
+    while True:
+        try:
+            return _open_tcp(address) if address.startswith("tcp:") else _open_serial(address, baud)
+        except _NotShared:
+            if time.monotonic() >= deadline:
+                raise
+        time.sleep(_POLL_S)
 
 
 def _open_serial(path: str, baud: int) -> Line:
@@ -194,7 +205,7 @@ def _join(address: str, key: str) -> Line:
         _await_welcome(connection)
     except (OSError, LinkLost):
         connection.close()
-        raise PortError(f"{address} is in use by another program, which does not share it") from None
+        raise _NotShared(f"{address} is in use by another program, which does not share it") from None
     except PortError:
         connection.close()
         raise

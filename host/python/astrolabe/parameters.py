@@ -167,9 +167,9 @@ class Parameters(Mapping[str, Parameter]):
         if not until_restart and self._client.request(messages.GetStatus()).mode in POWERED_MODES:
             raise RobotRefused("CommitParameters", ErrorCode.moving, 0)
         self._client.request(messages.RevertParameters())  # opens the staging area for this session
-        for request in wanted.values():
-            self._client.request(request)
-        self._put_in_force(messages.ApplyParameters() if until_restart else messages.CommitParameters())
+        for staged in wanted.values():
+            self._request_in_set(staged)
+        self._request_in_set(messages.ApplyParameters() if until_restart else messages.CommitParameters())
         for name, request in wanted.items():
             row = self._rows[name] = self._read(self._rows[name].info)
             if (row.held.active, row.held.active_text) != (request.value, request.text):
@@ -179,7 +179,9 @@ class Parameters(Mapping[str, Parameter]):
         """Reads all values again."""
         self._rows = {name: self._read(row.info) for name, row in self._rows.items()}
 
-    def _put_in_force(self, request: messages.CommitParameters | messages.ApplyParameters) -> None:
+    def _request_in_set(
+        self, request: messages.StageParameter | messages.CommitParameters | messages.ApplyParameters
+    ) -> None:
         try:
             self._client.request(request)
         except RobotRefused as refused:

@@ -9,6 +9,7 @@
 
 #include "host/base/error.hpp"
 #include "host/import/drives/stated_drives.hpp"
+#include "host/import/drives/unused_choice.hpp"
 #include "host/recording/run_file.hpp"
 #include "host/truth/files/rotations.hpp"
 
@@ -79,6 +80,7 @@ std::vector<NamedRun> named(experiment::RunSet set) {
 
 std::vector<NamedRun> runs_of(const std::vector<std::tuple<std::string, Table, Table>>& drives,
                               const std::string& unit, const importing::StatedDrives& stated) {
+  importing::refuse_choices_unused_with_arrays(stated);
   std::vector<importing::HeldDrive> held;
   for (const auto& [name, wheels, truth] : drives) {
     importing::ImportedWheels imported;
@@ -113,6 +115,7 @@ py::dict facts_of(const recording::RunInfo& info) {
 experiment::RunSet set_of(const std::vector<const NamedRun*>& runs, std::vector<std::string> sessions) {
   experiment::RunSet set;
   for (const NamedRun* one : runs) {
+    if (one == nullptr) throw py::type_error("there is None in place of a run");
     set.names.push_back(one->name);
     set.runs.push_back(one->run);
   }

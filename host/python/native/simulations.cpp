@@ -3,6 +3,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <tuple>
 #include <utility>
 
@@ -50,29 +51,43 @@ class SimulatedRobot {
     client_.pump(std::chrono::milliseconds(50));  // until it has booted
   }
 
-  std::map<std::string, double> parameters() { return robot::RemoteParameters::fetch(client_).numbers(); }
+  std::map<std::string, double> parameters() {
+    const py::gil_scoped_release others_run;
+    const std::lock_guard alone(mutex_);
+    return fetched();
+  }
 
   void load(const std::map<std::string, double>& values) {
+    const py::gil_scoped_release others_run;
+    const std::lock_guard alone(mutex_);
     robot::upload(client_, std::map<std::string, robot::Value>(values.begin(), values.end()));
   }
 
   NamedRun drive(const std::string& name, const std::vector<Segment>& segments) {
     const py::gil_scoped_release others_run;
+    const std::lock_guard alone(mutex_);
+    // PyErr_CheckSignals tells of each signal once, and the drive asks more than once.
+    bool interrupted = false;
     experiment::RunHooks hooks;
-    hooks.interrupted = [] {
+    hooks.interrupted = [&interrupted] {
+      if (interrupted) return true;
       const py::gil_scoped_acquire python;
-      return PyErr_CheckSignals() != 0;
+      return interrupted = PyErr_CheckSignals() != 0;
     };
     try {
       return {name, experiment::record_run(client_, truth_, path_of(segments),
-                                           experiment::info_of(client_.robot(), parameters()), hooks)};
-    } catch (const Interrupted&) {
+                                           experiment::info_of(client_.robot(), fetched()), hooks)};
+    } catch (const std::exception&) {
+      if (!interrupted) throw;
       const py::gil_scoped_acquire python;
       throw py::error_already_set();
     }
   }
 
  private:
+  std::map<std::string, double> fetched() { return robot::RemoteParameters::fetch(client_).numbers(); }
+
+  std::mutex mutex_;  // callers release Python's lock, so two threads may call at the same time
   std::shared_ptr<simulation::VirtualRobot> robot_;
   robot::Client client_;
   simulation::CameraTruth truth_;

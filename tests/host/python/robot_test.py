@@ -4,10 +4,15 @@ import csv
 import math
 import os
 import pty
+import socket
 import subprocess
 import tempfile
+import threading
 import tty
 import unittest
+from dataclasses import replace
+from typing import Any
+from unittest import mock
 
 try:
     import numpy
@@ -16,6 +21,9 @@ except ImportError as missing:
     raise unittest.SkipTest(f"{missing}: install python3-numpy and python3-serial")
 
 import astrolabe
+from astrolabe import messages
+from astrolabe.codec import Message
+from astrolabe.line import open_line
 from astrolabe.messages import ErrorCode, Fault, Mode
 
 import robots
@@ -40,8 +48,12 @@ class Driving(WithRobot):
     def test_a_velocity_is_held_for_as_long_as_it_is_asked_for(self) -> None:
         with self.robot.record() as recording, self.robot.drive() as drive:
             drive.hold_velocity(0.2, 0, 1.5)
-        speed = recording.to_numpy()["v_mps"]
-        self.assertAlmostEqual(float(numpy.median(speed[speed > 0.1])), 0.2, delta=0.01)  # 5 %: the speed loop's ripple
+        samples = recording.to_numpy()
+        moving = samples[samples["v_mps"] > 0.1]
+        self.assertAlmostEqual(float(numpy.median(moving["v_mps"])), 0.2, delta=0.01)  # 5 %: the speed loop's ripple
+        # Both ramps pass half the speed, one as long after the start as the other after the end. The robot goes on until the
+        # stop arrives, for at most its command time-out of 0.2 s, and two samples are 0.02 s apart.
+        self.assertAlmostEqual(float(moving["time_s"][-1] - moving["time_s"][0]), 1.5, delta=0.3)
         self.assertEqual(recording[-1].latched_faults, 0)
 
     def test_a_velocity_that_nobody_repeats_ends_by_the_robots_time_out(self) -> None:
@@ -64,6 +76,46 @@ class Driving(WithRobot):
             drive.set_velocity(0.2, 0)
             raise KeyboardInterrupt
         self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def _interrupt(self, kind: type[Message], times: int, *, sent: bool) -> None:
+        """Ctrl-C at the first requests of this kind: before the robot has them, or before its reply is seen."""
+        request = self.robot.client.request
+        left = times
+
+        def interrupted(message: Any, *others: Any) -> Any:
+            nonlocal left
+            now = isinstance(message, kind) and left > 0
+            reply = None if now and not sent else request(message, *others)
+            if now:
+                left -= 1
+                raise KeyboardInterrupt
+            return reply
+
+        self.enterContext(mock.patch.object(self.robot.client, "request", interrupted))
+
+    def test_a_ctrl_c_before_the_reply_to_arm_disarms(self) -> None:
+        self._interrupt(messages.Arm, 1, sent=True)
+        with self.assertRaises(KeyboardInterrupt), self.robot.drive():
+            self.fail("the block began")
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_ctrl_c_while_the_robot_ramps_down_disarms(self) -> None:
+        self._interrupt(messages.Stop, 1, sent=True)
+        with self.assertRaises(KeyboardInterrupt), self.robot.drive() as drive:
+            drive.set_velocity(0.2, 0)
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_ctrl_c_at_the_disarm_disarms_again(self) -> None:
+        self._interrupt(messages.Disarm, 1, sent=False)
+        with self.assertRaises(KeyboardInterrupt), self.robot.drive() as drive:
+            drive.set_velocity(0.2, 0)
+        self.assertEqual(self.robot.status().mode, Mode.disarmed)
+
+    def test_a_ctrl_c_that_keeps_the_robot_armed_is_not_stopped(self) -> None:
+        self._interrupt(messages.Disarm, 2, sent=False)
+        with self.assertRaisesRegex(astrolabe.NotStopped, "KeyboardInterrupt"), self.robot.drive():
+            pass
+        self.assertNotEqual(self.robot.status().mode, Mode.disarmed)
 
     def test_a_robot_with_a_fault_is_not_armed_until_a_person_clears_it(self) -> None:
         self.robot.emergency_stop()
@@ -138,13 +190,50 @@ class Parameters(WithRobot):
         self.robot.parameters.refresh()
         self.assertEqual(self.robot.parameters["b"].value, 0.29)
 
+    def test_a_value_that_the_robot_refuses_to_stage_leaves_nothing_staged(self) -> None:
+        row = self.robot.parameters["c_R"]
+        wider = replace(row, info=replace(row.info, maximum=2**31 - 1))  # as a table of another firmware would say
+        self.enterContext(mock.patch.dict(self.robot.parameters._rows, {"c_R": wider}))
+        assert row.maximum is not None
+        with self.assertRaises(astrolabe.RobotRefused):
+            self.robot.parameters.set({"b": 0.28, "c_R": 1.2 * row.maximum})
+        held = self.robot.client.request(messages.GetParameter(self.robot.parameters["b"].info.id))
+        self.assertEqual(held.staged, held.active)
+
+    def _let_velocities_last(self) -> None:
+        """A simulator in fast motion may drive for tenths of a second between two requests."""
+        self.robot.parameters.set({"command_timeout": 10_000})  # ms
+
     def test_a_robot_that_drives_keeps_its_set(self) -> None:
-        self.assertIn("b", self.robot.parameters)  # read before the robot needs its driver
+        self._let_velocities_last()
+        for until_restart in (False, True):
+            with self.subTest(until_restart=until_restart), self.robot.drive() as drive:
+                drive.set_velocity(0.1, 0)
+                with self.assertRaises(astrolabe.RobotRefused) as raised:
+                    self.robot.parameters.set({"b": 0.28}, until_restart=until_restart)
+            self.assertEqual(raised.exception.code, ErrorCode.moving)
+            self.robot.parameters.refresh()
+            self.assertEqual(self.robot.parameters["b"].value, 0.29)
+
+    def test_a_robot_that_drives_takes_gains_until_its_restart(self) -> None:
+        self._let_velocities_last()
         with self.robot.drive() as drive:
             drive.set_velocity(0.1, 0)
             with self.assertRaises(astrolabe.RobotRefused) as raised:
-                self.robot.parameters.set({"b": 0.28})
-        self.assertEqual(raised.exception.code, ErrorCode.moving)
+                self.robot.parameters.set({"kp": 55})
+            self.assertEqual(raised.exception.code, ErrorCode.moving)
+            self.robot.parameters.set({"kp": 55}, until_restart=True)
+        self.robot.parameters.refresh()
+        self.assertEqual(self.robot.parameters["kp"].value, 55)
+
+    def test_what_is_set_until_the_restart_is_gone_after_it(self) -> None:
+        flash = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "flash")
+        with robots.simulated("--fast", "--flash", flash) as port, astrolabe.connect(port) as robot:
+            robot.parameters.set({"b": 0.2875})
+            robot.parameters.set({"b": 0.28}, until_restart=True)
+            self.assertEqual(robot.parameters["b"].value, 0.28)
+        with robots.simulated("--fast", "--flash", flash) as port, astrolabe.connect(port) as robot:
+            self.assertEqual(robot.parameters["b"].value, 0.2875)
 
 
 class Ports(unittest.TestCase):
@@ -161,12 +250,45 @@ class Ports(unittest.TestCase):
             self.assertNotIn("\n", str(raised.exception))
 
     def test_a_line_without_a_robot_is_told_from_one_that_echoes(self) -> None:
-        master, slave = pty.openpty()
-        tty.setraw(slave)
+        path = self._pty()
         with self.assertRaisesRegex(astrolabe.PortError, "does not answer"):
-            astrolabe.connect(os.ttyname(slave))
-        os.close(slave)
-        os.close(master)
+            astrolabe.connect(path)
+
+        def echo(server: socket.socket) -> None:
+            caller, _ = server.accept()
+            with caller:
+                while received := caller.recv(4096):
+                    caller.sendall(received)
+
+        server = self.enterContext(socket.create_server(("127.0.0.1", 0)))
+        echoing = threading.Thread(target=echo, args=[server])
+        echoing.start()
+        with self.assertRaisesRegex(astrolabe.PortError, "sends back what it is sent"):
+            astrolabe.connect(f"tcp:localhost:{server.getsockname()[1]}")
+        echoing.join()  # the line was closed
+
+    def test_a_serial_line_that_nobody_reads_is_lost(self) -> None:
+        path = self._pty()
+        line = open_line(path)
+        with self.assertRaisesRegex(astrolabe.LinkLost, "lost "):
+            line.write(bytes(1 << 20))  # more than the kernel holds for a reader
+        line.close()
+
+    def test_a_port_whose_holder_is_just_ending_is_opened(self) -> None:
+        server = self.enterContext(socket.create_server(("127.0.0.1", 0)))
+        port = server.getsockname()[1]
+        holder = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        holder.bind(f"\0astrolabe-port-tcp-127.0.0.1-{port}")  # and does not listen, as one that starts or ends
+        with mock.patch("astrolabe.line.time.sleep", lambda _: holder.close()):
+            open_line(f"tcp:localhost:{port}").close()
+
+    def _pty(self) -> str:
+        """The path of a raw pty; nobody reads at its other end."""
+        master, slave = pty.openpty()
+        self.addCleanup(os.close, master)
+        self.addCleanup(os.close, slave)
+        tty.setraw(slave)
+        return os.ttyname(slave)
 
     def test_a_port_that_this_package_holds_is_refused_to_a_second_connection(self) -> None:
         with robots.simulated() as port, astrolabe.connect(port):
