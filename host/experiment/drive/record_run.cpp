@@ -237,6 +237,7 @@ recording::Run record_run(robot::Client& client, truth::Source& truth, const rob
   run.info.truth_clock = truth.clock();
   robot::DriveHooks drive_hooks;
   drive_hooks.interrupted = hooks.interrupted;
+  drive_hooks.resting = hooks.resting;
   drive_hooks.notice = hooks.notice;
   drive_hooks.segment_done = [&](const protocol::SegmentDone& done) { hooks.segment_done(done.tag); };
 

@@ -25,6 +25,7 @@ struct RunHooks {
   std::function<void(std::uint16_t tag)> segment_done = [](std::uint16_t) {};
   std::function<void(const Remark&)> notice = [](const Remark&) {};
   std::function<bool()> interrupted = [] { return false; };
+  std::function<void()> resting = [] {};  // as robot::DriveHooks has it
 };
 
 /// The path of a run.

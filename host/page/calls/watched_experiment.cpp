@@ -71,11 +71,11 @@ experiment::Plan plan_in(const json& question) {
 
 json watched_experiment(robot::Client& client, const std::shared_ptr<simulation::VirtualRobot>& robot,
                         const experiment::Plan& plan, const std::filesystem::path& folder,
-                        const std::string& name, const Emit& emit, const std::function<bool()>& interrupted) {
+                        const std::string& name, const Emit& emit, const experiment::RunHooks& run) {
   simulation::CameraTruth truth(robot);
   Ways ways(robot, emit);
   experiment::ExperimentHooks hooks;
-  hooks.run.interrupted = interrupted;
+  hooks.run = run;
   hooks.run_started = [&](const experiment::RunSpec& spec, int number, int total) {
     emit({{"event", "run"},
           {"title", spec.title()},

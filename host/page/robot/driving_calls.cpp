@@ -72,7 +72,12 @@ json DrivingCalls::arm(live::RobotSession& session, Page page) {
 
 json DrivingCalls::disarm(live::RobotSession& session) {
   end_path("the robot was disarmed");
+  if (protocol::gives_power(session.ask(protocol::GetStatus{}).mode)) {
+    rest_and_disarm(session);
+    return notice("ramps to rest, and is disarmed then");
+  }
   driving_.disarm(session);
+  ask_rest_at_.reset();
   return notice("disarmed");
 }
 
@@ -141,7 +146,10 @@ void DrivingCalls::leave(live::RobotSession& session, Page page) {
 }
 
 void DrivingCalls::finish(live::RobotSession& session) {
-  if (!driving_.armed()) return;
+  if (driving_.armed()) rest_and_disarm(session);
+}
+
+void DrivingCalls::rest_and_disarm(live::RobotSession& session) {
   stop(session);
   driver_ = 0;
   disarm_at_ = session.client().now() + robot::longest_stop(session.numbers());
@@ -156,10 +164,10 @@ void DrivingCalls::disarm_at_rest(live::RobotSession& session) {
   driving_.disarm(session);
 }
 
-void DrivingCalls::end(live::RobotSession& session) {
+void DrivingCalls::end(live::RobotSession& session, const std::function<void()>& meanwhile) {
   if (!driving_.armed()) return;
   stop(session);
-  const bool rests = robot::wait_until_power_off(session.client());
+  const bool rests = robot::wait_until_power_off(session.client(), meanwhile);
   driving_.disarm(session);
   path_.reset();
   if (!rests) throw Error("the robot did not come to rest and was disarmed: it may roll on");

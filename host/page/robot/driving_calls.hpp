@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ class DrivingCalls {
   static constexpr microseconds kHold = std::chrono::milliseconds(250);
 
   Answer arm(live::RobotSession& session, Page page);
+  /// A robot that moves is brought to rest first, and disarmed by a step() then: without power it would roll on.
   Answer disarm(live::RobotSession& session);
   /// Whoever asks.
   Answer stop(live::RobotSession& session);
@@ -42,7 +44,9 @@ class DrivingCalls {
   /// The robot is stopped now, and disarmed by a step() once it is at rest, if a page drives it.
   void finish(live::RobotSession& session);
   /// Stops the robot, waits for its rest and disarms it, if a page drives it. Throws astro::Error if it does not come to rest.
-  void end(live::RobotSession& session);
+  /// `meanwhile`: as of robot::wait_until_power_off.
+  void end(
+      live::RobotSession& session, const std::function<void()>& meanwhile = [] {});
   /// Nobody drives any more: of a fault, or of a link that is lost. Must be called before its session ends.
   void release(const std::string& why);
 
@@ -58,6 +62,7 @@ class DrivingCalls {
  private:
   void require_driver(Page page) const;
   void end_path(const std::string& why);
+  void rest_and_disarm(live::RobotSession& session);
   void disarm_at_rest(live::RobotSession& session);
 
   live::Driving driving_{kHold};

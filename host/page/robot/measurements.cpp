@@ -168,8 +168,12 @@ json Measurements::load_tuning(const Task& task, const json&) {
 json Measurements::experiment(const Task& task, const json& question) {
   const auto simulated = task.robot.simulation();
   if (!simulated) throw Error("this page sees where a simulated robot is, and no other: it needs a tracker");
+  experiment::RunHooks run;
+  run.notice = task.drive.notice;
+  run.interrupted = task.drive.interrupted;
+  run.resting = task.drive.resting;
   return watched_experiment(task.session.client(), simulated, plan_in(question), task.folder, "setup",
-                            task.tell, task.drive.interrupted);
+                            task.tell, run);
 }
 
 }  // namespace astro::page

@@ -66,12 +66,6 @@ json ParameterCalls::list(live::RobotSession& session) const {
   return {{"parameters", std::move(rows)}};
 }
 
-json ParameterCalls::read(live::RobotSession& session) const {
-  session.parameters().refresh();
-  session.note_parameters();
-  return list(session);
-}
-
 json ParameterCalls::stage(live::RobotSession& session, const json& question) {
   const std::string name = text_in(question, "name");
   const robot::Value value = value_in(question);

@@ -16,8 +16,6 @@ class ParameterCalls {
 
   /// The table as it was read last, with what is staged.
   Answer list(live::RobotSession& session) const;
-  /// Reads all values again first: another program may have changed them.
-  Answer read(live::RobotSession& session) const;
 
   /// Throws astro::Error for a name that the robot does not have and a value that its table does not allow.
   Answer stage(live::RobotSession& session, const nlohmann::json& question);

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "host/base/error.hpp"
+#include "host/base/interrupted.hpp"
 #include "host/experiment/analysis/calibration_file.hpp"
 #include "host/experiment/drive/record_run.hpp"
+#include "host/experiment/files/robot_identity.hpp"
 #include "host/page/calls/attempt.hpp"
 #include "host/page/calls/question.hpp"
 #include "host/page/calls/simulated_robot.hpp"
@@ -102,7 +104,7 @@ json RobotCalls::answer(Page page, const std::string& call, const json& question
   if (found == calls().end() && measurement == measurements().end())
     return refusal("there is no call '" + call + "'", {call});
   if (!question.is_object()) return refusal("the question is no object");
-  if (measuring_) return answer_meanwhile(call);
+  if (measuring_) return answer_meanwhile(page, call, question);
   waited_ = waited;
   json told = attempt(
       [&] {
@@ -146,6 +148,15 @@ live::RobotSession& RobotCalls::known_session() {
   return found;
 }
 
+/// The same with the parameters as the robot has them: another program may have changed them.
+live::RobotSession& RobotCalls::current_session() {
+  live::RobotSession& found = known_session();
+  if (driving_.armed()) return found;  // nobody can change them, and the link has no time for the table
+  found.parameters().refresh();
+  found.note_parameters();
+  return found;
+}
+
 json RobotCalls::open(Page page, const json& question) {
   require_no_close();
   const std::string port = text_in(question, "port");
@@ -169,6 +180,7 @@ json RobotCalls::description(Page page) {
   json told = parameters_[page].list(found);
   told.update({{"port", robot_->port()},
                {"name", experiment::info_of(robot, {}).robot_name},
+               {"unique_id", experiment::identity_of(robot).id},
                {"firmware", robot::firmware_version(robot)},
                {"hardware", robot.board.view()},
                {"page", page},
@@ -249,11 +261,7 @@ json RobotCalls::drive(Page page, const json& question) {
   return driving_.drive(session(), page, question, waited_);
 }
 json RobotCalls::path(Page page, const json& question) { return driving_.path(session(), page, question); }
-json RobotCalls::parameters(Page page, const json&) {
-  // While the robot drives nobody can change them, and the link has no time for the table.
-  ParameterCalls& own = parameters_[page];
-  return driving_.armed() ? own.list(known_session()) : own.read(known_session());
-}
+json RobotCalls::parameters(Page page, const json&) { return parameters_[page].list(current_session()); }
 json RobotCalls::stage(Page page, const json& question) {
   return parameters_[page].stage(known_session(), question);
 }
@@ -292,7 +300,7 @@ json RobotCalls::record(Page, const json& question) {
 
 json RobotCalls::export_parameters(Page, const json&) {
   experiment::ParameterValues values;
-  for (const robot::ParameterRow& row : known_session().parameters().rows())
+  for (const robot::ParameterRow& row : current_session().parameters().rows())
     values[row.name] = robot::to_value(row, row.active);
   const std::filesystem::path file = std::filesystem::path(kMade) / "robot.toml";
   std::filesystem::create_directories(folder_ / kMade);
@@ -310,10 +318,10 @@ const std::map<std::string_view, RobotCalls::Measure>& RobotCalls::measurements(
 }
 
 json RobotCalls::judge_wiring(Page, const json& question) {
-  return measurements_.judge_wiring(known_session(), question);
+  return measurements_.judge_wiring(current_session(), question);
 }
 json RobotCalls::roll(Page, const json& question) {
-  live::RobotSession& found = known_session();
+  live::RobotSession& found = current_session();
   return measurements_.roll(found, fresh_telemetry(), question);
 }
 
@@ -323,9 +331,12 @@ json RobotCalls::measure(Page page, Measure what, const json& question) {
   driving_.require_free_for(page);
   if (recording_) throw Error("a recording is under way: end it first", {}, {recording_->file()});
   live::RobotSession& found = known_session();
-  driving_.end(found);
   robot::DriveHooks drive;
   drive.interrupted = [this] { return measurement_has_to_end(); };
+  drive.resting = [this] { measurement_has_to_end(); };
+  drive.notice = [&](const Remark& remark) {
+    tell_(page, {{"event", "notice"}, {"sentence", remark.sentence}});
+  };
   const auto tell = [&](const json& event) { tell_(page, event); };
   const auto ended = [&] {
     while (found.take_sample()) {
@@ -337,15 +348,22 @@ json RobotCalls::measure(Page page, Measure what, const json& question) {
   };
   stop_measurement_ = false;
   report_at_ = robot_->now();
+  const robot::Restore measuring(measuring_, std::optional(page));
+  report();  // now, so that a page that leaves knows that it has to stop the robot
   try {
-    const robot::Restore measuring(measuring_, std::optional(page));
-    const json told = (measurements_.*what)({*robot_, found, drive, tell, folder_}, question);
+    driving_.end(found, drive.resting);
+    if (measurement_has_to_end()) throw Interrupted("stopped before anything was measured");
+    const json told = (measurements_.*what)({*robot_, current_session(), drive, tell, folder_}, question);
     ended();
     return told;
   } catch (const robot::LinkLost&) {
     throw;
   } catch (...) {
-    ended();
+    try {
+      ended();
+    } catch (const std::exception&) {
+      // The next step() tells that the link is lost; what is thrown here is why the measurement ended.
+    }
     throw;
   }
 }
@@ -364,9 +382,11 @@ bool RobotCalls::measurement_has_to_end() {
 }
 
 /// The link is not given up here, because the measurement still uses it.
-json RobotCalls::answer_meanwhile(const std::string& call) {
+json RobotCalls::answer_meanwhile(Page page, const std::string& call, const json& question) {
   return attempt(
       [&]() -> json {
+        // This asks the robot nothing, and a page that knows the robot can stop it.
+        if (call == "robot/open") return open(page, question);
         const bool emergency = call == "robot/emergency_stop";
         if (!emergency && call != "robot/stop" && call != "robot/pause" && call != "robot/disarm")
           throw Error("the robot is being measured: stop it, or ask again when that is done",
@@ -383,11 +403,10 @@ const Telemetry& RobotCalls::fresh_telemetry() {
   live::RobotSession& found = known_session();
   const std::uint64_t asked_us = found.device_now_us();
   const microseconds end = found.client().now() + seconds(1);
-  while (!newest_ || newest_->device_time_us < asked_us) {
+  do {
     if (found.client().now() >= end) throw Error("the robot sends no telemetry: ask again");
-    found.pump(milliseconds(20));
-    take_samples(found);
-  }
+    pump(found, milliseconds(20));
+  } while (!newest_ || newest_->device_time_us < asked_us);
   return *newest_;
 }
 
@@ -412,12 +431,16 @@ void RobotCalls::work(microseconds most) {
   if (found == nullptr) return;
   if (!found->knows_parameters()) found->read_parameters(milliseconds(5));
   driving_.step(*found);
-  found->pump(most);
-  if (found->restarted()) throw robot::LinkLost("the robot has restarted");
-  if (found->take_fault()) driving_.release("the robot stopped by itself");
-  take_samples(*found);
+  pump(*found, most);
   found->keep_telemetry();
   look_for_other_driver(*found);
+}
+
+void RobotCalls::pump(live::RobotSession& session, microseconds most) {
+  session.pump(most);
+  if (session.restarted()) throw robot::LinkLost("the robot has restarted");
+  if (session.take_fault()) driving_.release("the robot stopped by itself");
+  take_samples(session);
 }
 
 void RobotCalls::take_samples(live::RobotSession& session) {
@@ -443,6 +466,7 @@ void RobotCalls::lose(const Error& why) {
   driving_.release("the link to the robot was lost");
   if (robot_) robot_->lose(why);
   newest_.reset();
+  measurements_ = {};
   other_driver_.clear();
 }
 

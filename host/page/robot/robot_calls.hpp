@@ -97,16 +97,18 @@ class RobotCalls {
   static const std::map<std::string_view, Measure>& measurements();
   Answer measure(Page page, Measure what, const nlohmann::json& question);
   bool measurement_has_to_end();
-  Answer answer_meanwhile(const std::string& call);
+  Answer answer_meanwhile(Page page, const std::string& call, const nlohmann::json& question);
   const protocol::Telemetry& fresh_telemetry();
   OpenedRobot& robot();
   live::RobotSession& session() { return robot().required_session(); }
   live::RobotSession& known_session();
+  live::RobotSession& current_session();
   void require_no_close() const;
   void finish_close();
   void forget_robot();
   Answer description(Page page);
   void work(microseconds most);
+  void pump(live::RobotSession& session, microseconds most);
   void take_samples(live::RobotSession& session);
   void take(const protocol::Telemetry& telemetry);
   void lose(const Error& why);
@@ -123,7 +125,7 @@ class RobotCalls {
   std::map<Page, ParameterCalls> parameters_;  // a page puts in force what it has staged, and nobody else has
   std::map<Page, SignalWatch> watches_;
   Meanwhile meanwhile_;
-  Measurements measurements_;      // of this robot
+  Measurements measurements_;      // of this robot, until it is lost: one that restarts counts anew
   std::optional<Page> measuring_;  // for this page, at this moment
   bool stop_measurement_ = false;
   microseconds report_at_{};     // of a measurement

@@ -198,7 +198,7 @@ void DriveSession::stop() {
 }
 
 void DriveSession::wait_until_power_off() {
-  if (robot::wait_until_power_off(client_)) return;
+  if (robot::wait_until_power_off(client_, hooks_.resting)) return;
   throw Error("the robot did not come to rest and was disarmed: its motors are off, but it may roll on");
 }
 

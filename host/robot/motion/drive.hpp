@@ -24,8 +24,11 @@ class NotStopped : public Error {
 struct DriveHooks {
   /// Called at least every 50 ms while the robot drives; true stops and disarms the robot and ends the drive
   /// with Interrupted. For the flag that Ctrl-C sets. Not called while the robot ramps to rest, which ends by
-  /// itself.
+  /// itself; `resting` is.
   std::function<bool()> interrupted = [] { return false; };
+  /// Called at least every 50 ms while the robot ramps to rest, by stop() or end(). It may ask the robot something itself: an
+  /// emergency stop must not wait for the end of a ramp.
+  std::function<void()> resting = [] {};
   /// Called with remarks that are worth showing but are not errors.
   std::function<void(const Remark&)> notice = [](const Remark&) {};
   /// Called for each segment that was driven to its end; tags count from 1 in the order of the run.

@@ -13,9 +13,10 @@ using std::chrono::milliseconds;
 constexpr microseconds kStopPoll = milliseconds(50);
 constexpr microseconds kUsualRamp = milliseconds(5000);
 
-bool stops_before(Client& client, microseconds deadline) {
+bool stops_before(Client& client, microseconds deadline, const std::function<void()>& meanwhile) {
   while (protocol::gives_power(client.request(protocol::GetStatus{}).mode)) {
     if (client.now() >= deadline) return false;
+    meanwhile();
     client.pump(kStopPoll);
   }
   return true;
@@ -52,10 +53,11 @@ bool wait_until_wheels_stopped(Client& client) {
   return stopped;
 }
 
-bool wait_until_power_off(Client& client) {
+bool wait_until_power_off(Client& client, const std::function<void()>& meanwhile) {
   const microseconds start = client.now();
-  if (stops_before(client, start + kUsualRamp)) return true;
-  if (stops_before(client, start + longest_stop(RemoteParameters::fetch(client).numbers()))) return true;
+  if (stops_before(client, start + kUsualRamp, meanwhile)) return true;
+  if (stops_before(client, start + longest_stop(RemoteParameters::fetch(client).numbers()), meanwhile))
+    return true;
   client.request(protocol::Disarm{});
   return false;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -16,11 +17,13 @@ inline constexpr const char* kNotPaused = "the robot was not paused, unless it w
 microseconds longest_stop(const std::map<std::string, double>& parameters);
 
 /// Waits until a robot that received a stop request no longer powers its motors, for longest_stop at most. A robot that still
-/// drives then is disarmed, which opens its bridges at once, so it may roll on.
+/// drives then is disarmed, which opens its bridges at once, so it may roll on. `meanwhile` is called at least every 50 ms and may
+/// itself ask the robot something, an emergency stop among it.
 ///
 /// Returns false if it had to be disarmed.
-/// Errors  all that Client::request throws.
-[[nodiscard]] bool wait_until_power_off(Client& client);
+/// Errors  all that Client::request throws, and `meanwhile`.
+[[nodiscard]] bool wait_until_power_off(
+    Client& client, const std::function<void()>& meanwhile = [] {});
 
 /// Waits until the wheels have stopped although nothing brakes them: a robot whose bridges were opened by a
 /// fault rolls on until friction stops it. Returns false if they still turn after two seconds. Ends this

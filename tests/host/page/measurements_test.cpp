@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "tests/host/page/pages.hpp"
 
@@ -80,6 +81,12 @@ TEST_F(BuiltRobot, WrongCountsShowWhenItIsRolledByHand) {
   load(wrong["parameters"]);
   EXPECT_TRUE(rolled()["agrees"].get<bool>());
   EXPECT_THAT(sentence(ask("roll", {{"turns", 10}, {"distance_m", 2}})), HasSubstr("how far"));
+}
+
+TEST_F(BuiltRobot, ARollBeginsWhateverFaultCameJustNow) {
+  build(json::object());
+  result("emergency_stop");
+  result("roll", {{"begin", true}});
 }
 
 TEST_F(BuiltRobot, IsTunedLoadedAndMeasuredAgain) {
@@ -173,6 +180,91 @@ TEST_F(MeasuredAtAPort, AnEmergencyStopOpensTheBridgesAtOnce) {
   EXPECT_THAT(sentence(tune_and("emergency_stop")), HasSubstr("emergency"));
   EXPECT_TRUE(meanwhile_answer_.contains("result"));
   EXPECT_EQ(state_after_ms(100)["faults"][0]["name"], "emergency_stop");
+}
+
+TEST_F(MeasuredAtAPort, AnEmergencyStopDoesNotWaitForTheRampOfAMeasurement) {
+  result("open", {{"port", "/dev/robot"}});
+  bool open_at_once = false;
+  meanwhile_ = [&] {
+    if (mode() != protocol::Mode::stopping) return false;
+    ask("emergency_stop", json::object(), kSecond);
+    open_at_once = mode() == protocol::Mode::fault && moves();
+    return false;
+  };
+  EXPECT_THAT(sentence(ask("tune")), HasSubstr("emergency"));
+  EXPECT_TRUE(open_at_once) << "and it rolled on";
+}
+
+TEST_F(MeasuredAtAPort, AnEmergencyStopDoesNotWaitForTheRampBeforeAMeasurement) {
+  result("open", {{"port", "/dev/robot"}});
+  result("arm");
+  drive_ms(500, 0.3);
+  bool open_at_once = false;
+  meanwhile_ = [&] {
+    if (mode() != protocol::Mode::stopping) return false;
+    ask("emergency_stop", json::object(), kSecond);
+    open_at_once = mode() == protocol::Mode::fault && moves();
+    return false;
+  };
+  EXPECT_THAT(sentence(ask("tune")), HasSubstr("before anything was measured"));
+  EXPECT_TRUE(open_at_once) << "and it rolled on";
+  EXPECT_EQ(state_after_ms(100)["faults"][0]["name"], "emergency_stop");
+}
+
+TEST_F(MeasuredAtAPort, AStopThatWaitsAlreadyEndsTheMeasurementBeforeItsFirstVoltage) {
+  result("open", {{"port", "/dev/robot"}});
+  bool moved = false;
+  meanwhile_ = [&, asked = false]() mutable {
+    moved |= moves();
+    if (!std::exchange(asked, true)) {
+      EXPECT_EQ(state()["driver"], kFirst) << "the page knows already that it has to stop it";
+      ask("stop");
+    }
+    return false;
+  };
+  EXPECT_THAT(sentence(ask("probe_motor", {{"motor", "left"}})), HasSubstr("before anything was measured"));
+  EXPECT_FALSE(moved);
+  EXPECT_EQ(state_after_ms(100)["mode"], "disarmed");
+}
+
+TEST_F(MeasuredAtAPort, APageThatComesMeanwhileSeesTheRobotAndMayStopIt) {
+  result("open", {{"port", "/dev/robot"}});
+  json seen;
+  meanwhile_ = [&] {
+    if (!moves() || !seen.is_null()) return false;
+    seen = result("open", json::object(), kSecond);
+    result("stop", json::object(), kSecond);
+    return false;
+  };
+  EXPECT_THAT(sentence(ask("tune")), HasSubstr("at rest and disarmed"));
+  EXPECT_EQ(seen["page"], kSecond);
+  EXPECT_FALSE(seen["parameters"].empty());
+}
+
+TEST_F(MeasuredAtAPort, ARollDoesNotGoOnOnceTheLinkWasLost) {
+  result("open", {{"port", "/dev/robot"}});
+  result("roll", {{"begin", true}});
+  cable_.pull();
+  run_ms(100);
+  cable_.plug_in();
+  pass_ms(5000);
+  run_ms(500);
+  ASSERT_EQ(state()["link"], "up");
+  EXPECT_THAT(sentence(ask("roll", {{"turns", 10}})), HasSubstr("begin again")) << "it may have restarted";
+}
+
+TEST_F(MeasuredAtAPort, WhatADriveRemarksIsTold) {
+  result("open", {{"port", "/dev/robot"}});
+  result("arm");
+  drive_ms(300, 0.3);
+  cable_.pull();
+  run_ms(100);
+  pass_ms(5000);
+  cable_.plug_in();
+  pass_ms(1000);
+  ASSERT_FALSE(state_after_ms(500)["faults"].empty()) << "by its own time-out";
+  result("probe_motor", {{"motor", "left"}});
+  EXPECT_THAT(events("notice", kFirst).at(0)["sentence"].get<std::string>(), HasSubstr("cleared"));
 }
 
 TEST_F(MeasuredAtAPort, ThePageThatAskedGoesAndTheMeasurementEnds) {

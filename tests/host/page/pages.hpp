@@ -104,6 +104,7 @@ class RobotAtAPort : public Pages {
       calls().step({});
     }
   }
+  protocol::Mode mode() { return support::drive_of(*robot_).mode(); }
   bool moves() { return !support::drive_of(*robot_).wheels().stopped(); }
 
   std::shared_ptr<simulation::VirtualRobot> robot_ =

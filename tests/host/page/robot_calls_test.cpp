@@ -156,6 +156,17 @@ TEST_F(SimulatedRobot, ASoftRampIsNotCutShortWhenTheDrivingPageGoes) {
   EXPECT_EQ(state_after_ms(5000)["mode"], "disarmed");
 }
 
+TEST_F(SimulatedRobot, ThatMovesIsBroughtToRestBeforeItIsDisarmed) {
+  result("arm");
+  drive_ms(500, 0.3);
+  result("disarm");
+  EXPECT_EQ(state_after_ms(50)["mode"], "stopping");
+  const json later = state_after_ms(2500);
+  EXPECT_EQ(later["mode"], "disarmed");
+  EXPECT_FALSE(later["armed"].get<bool>());
+  EXPECT_FALSE(later["moving"].get<bool>());
+}
+
 TEST_F(SimulatedRobot, WhenAPageThatOnlyWatchesGoesTheRobotDrivesOn) {
   result("arm");
   result("watch", {{"signals", {"v"}}}, kSecond);

@@ -239,6 +239,10 @@ class FakeRobot {
     if (mode != protocol::Mode::fault) mode = protocol::Mode::disarmed;
     return {};
   }
+  Refusal carry_out(const protocol::EmergencyStop&) {
+    raise(Fault::emergency_stop);
+    return {};
+  }
   Refusal carry_out(const protocol::Rest&) {
     if (mode == protocol::Mode::disarmed || stopped) return no(protocol::ErrorCode::not_armed);
     end_motion();

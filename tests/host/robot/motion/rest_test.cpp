@@ -54,6 +54,15 @@ TEST_F(Rest, OfARobotThatDoesNotObeyIsMadeByDisarmingItAfterFiveSeconds) {
   EXPECT_EQ(link.robot.mode, Mode::disarmed);
 }
 
+TEST_F(Rest, DoesNotKeepAnEmergencyStopWaiting) {
+  link.robot.never_rests = true;
+  client.request(Stop{});
+  const microseconds start = client.now();
+  EXPECT_TRUE(wait_until_power_off(client, [&] { client.request(EmergencyStop{}); }));
+  EXPECT_LT(client.now() - start, std::chrono::milliseconds(100));
+  EXPECT_EQ(link.robot.mode, Mode::fault);
+}
+
 TEST_F(Rest, IsWaitedForAsLongAsTheRobotsOwnLimitsLetARampTake) {
   add("speed_limit", 1'000'000);
   add("acceleration_limit", 50'000);  // 20 s from 1 m/s

@@ -22,6 +22,8 @@ export interface Signal {
 
 export interface Opened {
   port: string;
+  /** Of the robot's processor, in hexadecimal digits. */
+  unique_id: string;
   /** The number of this page, by which RobotState.driver names it. */
   page: number;
   simulated: boolean;

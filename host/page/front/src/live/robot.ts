@@ -20,10 +20,12 @@ export class Robot {
   state: RobotState | null = null;
   /** Why nothing is heard of an open robot; "" if it is heard. */
   lost = "";
-  /** The last command that could not be carried out. */
+  /** The last command that could not be carried out, or a remark of a drive. */
   refusal: unknown = null;
   /** This page has armed the robot, but it was stopped since, and moves for nobody until it is armed again. */
   halted = false;
+  /** How often nobody was looking any more: a step of several questions compares it before the robot moves. */
+  left = 0;
   /** The part of a path that is driven; null if none is. */
   path_done: number | null = null;
   readonly samples = new SampleRing(kSamples);
@@ -36,6 +38,8 @@ export class Robot {
   private heard_ms = 0;
   private listeners = new Set<() => void>();
   private opening = false;
+  /** Questions under way that make the robot drive, of which the state may say nothing yet. */
+  private driving_asked = 0;
 
   constructor(readonly backend: Backend) {
     backend.listen((event) => this.take(event));
@@ -145,7 +149,18 @@ export class Robot {
 
   /** Nobody may be looking any more, or a question is open: a robot that is armed for this page is stopped. */
   leave_alone() {
-    if (this.is_mine) void this.stop();
+    this.left++;
+    if (this.is_mine || this.driving_asked > 0) void this.stop();
+  }
+
+  /** Asks what makes the robot drive; leave_alone() stops it from now on. */
+  async ask_to_drive<Answer>(call: string, question: object): Promise<Answer> {
+    this.driving_asked++;
+    try {
+      return await this.backend.ask<Answer>(call, question);
+    } finally {
+      this.driving_asked--;
+    }
   }
 
   private async enter(question: unknown) {
@@ -175,6 +190,7 @@ export class Robot {
     if (event.event === "samples") this.take_samples(event as Samples);
     else if (event.event === "pose") this.take_pose(event as Poses);
     else if (event.event === "path") this.take_path(event as PathEvent);
+    else if (event.event === "notice") this.refuse(new Refusal(event.sentence as string));
     else if (event.event === "state") this.take_state(event as RobotState);
   }
 

@@ -42,7 +42,7 @@ function Simulated({ robot, change, finish }: StepProps) {
     work(async () => {
       ways.current = [];
       take(null);
-      const answer = await robot.backend.ask<Experiment>("robot/experiment", { runs: 3, side_m: 2 });
+      const answer = await robot.ask_to_drive<Experiment>("robot/experiment", { runs: 3, side_m: 2 });
       set_report(await (await robot.backend.file(answer.report)).text());
       take(answer);
       await robot.read_parameters();

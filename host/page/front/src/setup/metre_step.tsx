@@ -35,15 +35,21 @@ export function MetreStep({ robot, load, finish }: StepProps) {
     work(async () => {
       judge(null);
       set_driven(false);
+      const { left } = robot;
+      const require_somebody = () => {
+        if (robot.left !== left) throw new Refusal("nobody was looking any more, so nothing was driven");
+      };
       const from = robot.truth.pose;
       await robot.backend.ask("robot/roll", { begin: true });
-      await robot.backend.ask("robot/arm", {});
+      require_somebody();
+      await robot.ask_to_drive("robot/arm", {});
       try {
+        require_somebody();
         const ended = end_of_path(robot);
-        await robot.backend.ask("robot/path", { kind: "line", size_m: 1, speed_mps: 0.2 });
+        await robot.ask_to_drive("robot/path", { kind: "line", size_m: 1, speed_mps: 0.2 });
         await ended;
       } finally {
-        await robot.backend.ask("robot/disarm", {});
+        await robot.backend.ask("robot/disarm", {}).catch(() => {}); // why the drive ended is what counts
       }
       set_length({ value: seen_m(robot, from), unit: "m" });
       set_driven(true);

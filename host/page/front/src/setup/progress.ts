@@ -24,6 +24,8 @@ export interface Done {
 export interface Progress {
   /** How the robot is opened. */
   question: { port?: string; simulated?: SimulatedRobot };
+  /** The robot that answered then (Opened.unique_id): another one may be at the same port now. */
+  robot?: string;
   at: StepName;
   done: Partial<Record<StepName, Done>>;
   /** Put in force on the way. A robot that this page simulates forgets them with the page. */

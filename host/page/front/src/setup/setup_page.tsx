@@ -82,8 +82,8 @@ function StepList({ progress, turn_to }: { progress: Progress; turn_to: (step: S
 }
 
 /** Whether this is the robot that is being set up. */
-const is_that_of = ({ question }: Progress, opened: Opened) =>
-  opened.simulated ? question.simulated !== undefined : question.port === opened.port;
+const is_that_of = ({ question, robot }: Progress, opened: Opened) =>
+  opened.simulated ? question.simulated !== undefined : question.simulated === undefined && robot === opened.unique_id;
 
 /** From a robot that was just built to one that is calibrated, step by step. */
 export function SetupPage({ robot }: { robot: Robot }) {
@@ -96,8 +96,10 @@ export function SetupPage({ robot }: { robot: Robot }) {
 
   const open = async (wanted: Progress) => {
     if (!robot.opened) await robot.open(wanted.question);
+    const { unique_id } = robot.opened!;
+    if (!wanted.question.simulated && wanted.robot !== undefined && wanted.robot !== unique_id) throw new Refusal("Another robot answers now than the one that was being set up.");
     if (wanted.question.simulated && Object.keys(wanted.loaded).length > 0) await put_in_force(robot, wanted.loaded, true);
-    held.begin(wanted);
+    held.begin({ ...wanted, robot: unique_id });
   };
   const start = (asked: Progress["question"]) => work(() => open({ question: asked, at: "wires", done: {}, loaded: {}, mended: [], truth: "" }));
   const progress = held.now;
@@ -130,8 +132,10 @@ export function SetupPage({ robot }: { robot: Robot }) {
     robot.leave_alone();
     change((before) => ({ ...before, at }));
   };
+  // A step that takes its time may end when another one is shown.
+  const { at } = progress;
   const end = (skipped: boolean, lines: string[]) =>
-    change((before) => ({ ...before, done: { ...before.done, [before.at]: { skipped, lines } }, at: next_step(before.at) }));
+    change((before) => ({ ...before, done: { ...before.done, [at]: { skipped, lines } }, at: before.at === at ? next_step(at) : before.at }));
   const rewire = async (wiring: string[]) => {
     set_rewires(true);
     try {

@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { type Length, LengthField } from "./length_field";
 import { parameter } from "./put_in_force";
 import { Problem, type StepProps, use_work } from "./step";
@@ -10,9 +10,20 @@ const metres_of = ({ value, unit }: Length) => value / kPerMetre[unit]!;
 
 /** Wheel diameter and wheelbase as a tape measure shows them. */
 export function SizesStep({ robot, load, finish }: StepProps) {
-  const [diameter, set_diameter] = useState(in_mm(parameter(robot, "wheel_diameter")));
-  const [wheelbase, set_wheelbase] = useState(in_mm(parameter(robot, "b")));
+  const [diameter, set_diameter] = useState<Length | null>(null);
+  const [wheelbase, set_wheelbase] = useState<Length | null>(null);
   const { busy, problem, work } = use_work();
+  // Another program may have changed them.
+  useEffect(
+    () =>
+      work(async () => {
+        await robot.read_parameters();
+        set_diameter(in_mm(parameter(robot, "wheel_diameter")));
+        set_wheelbase(in_mm(parameter(robot, "b")));
+      }),
+    [],
+  );
+  if (!diameter || !wheelbase) return <Problem sentence={problem} />;
   const take = () =>
     work(async () => {
       const values = { wheel_diameter: metres_of(diameter), b: metres_of(wheelbase) };

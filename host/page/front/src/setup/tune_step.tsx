@@ -65,11 +65,11 @@ export function TuneStep({ robot, change, finish }: StepProps) {
     work(async () => {
       take(null);
       set_done(0);
-      take(await robot.backend.ask<Tuning>("robot/tune", { on_stand }));
+      take(await robot.ask_to_drive<Tuning>("robot/tune", { on_stand }));
     });
   const load = () =>
     work(async () => {
-      const after = await robot.backend.ask<Tuning>("robot/load_tuning", {});
+      const after = await robot.ask_to_drive<Tuning>("robot/load_tuning", {});
       take(after);
       change((before) => ({ ...before, loaded: { ...before.loaded, ...Object.fromEntries(after.changes.map((each) => [each.name, each.after])) } }));
       await robot.read_parameters();

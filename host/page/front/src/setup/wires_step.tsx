@@ -45,7 +45,7 @@ export function WiresStep({ robot, progress, change, load, rewire, finish }: Ste
   const drive = (motor: Side) =>
     work(async () => {
       set_turned(null);
-      set_turned((await robot.backend.ask<{ turned: Turned | null }>("robot/probe_motor", { motor })).turned);
+      set_turned((await robot.ask_to_drive<{ turned: Turned | null }>("robot/probe_motor", { motor })).turned);
       set_driven(motor);
     });
   const answer = (seen: Seen) =>
