@@ -51,7 +51,7 @@ std::string link_line(const LinkFigures& link) {
 std::string gyro_line(const Telemetry& telemetry) {
   const auto at = recording::to_sample(telemetry).gyro;
   if (!at) return {};
-  return fmt::format("  gyro      {:<10} rate {:+9.2f} deg/s   heading {:10.2f} deg   slips {}\n",
+  return fmt::format("  gyro      {:<9} rate {:+8.2f} deg/s   heading {:10.2f} deg   slips {}\n",
                      protocol::name(telemetry.fused.gyro), without_minus_zero(degrees(at->omega_radps), 2),
                      without_minus_zero(degrees(at->theta_rad), 2), telemetry.fused.slips);
 }
