@@ -94,7 +94,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   void close() override {
     if (client_ == nullptr) return cut();
     send_waiting();
-    stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](error_code) {});
+    begin_close(websocket::close_code::going_away);
   }
 
   bool ended() const override { return ended_; }
@@ -242,8 +242,14 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   }
 
   void say_goodbye(websocket::close_code code, const std::string& why) {
-    stream_.async_close({code, why}, [self = shared_from_this()](error_code) {});
+    begin_close({code, why});
     stream_.next_layer().finish();
+  }
+
+  /// A stream may be closed once only, and the server can end while a client that was refused is still being told why.
+  void begin_close(const websocket::close_reason& reason) {
+    if (std::exchange(closing_, true)) return;
+    stream_.async_close(reason, [self = shared_from_this()](error_code) {});
   }
 
   /// Ends the connection without a message, because the other side does not read, or has sent no request.
@@ -269,7 +275,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   std::unique_ptr<Client> client_;  // once it is one
   Clock::time_point heard_at_ = Clock::now();
   std::optional<Clock::time_point> stuck_since_;
-  bool ended_ = false;
+  bool closing_ = false, ended_ = false;
 };
 
 }  // namespace
