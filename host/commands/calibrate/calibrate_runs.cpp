@@ -108,7 +108,8 @@ constexpr Advice kCalibrateRunsAdvice[] = {
      ": leave it out with 'astrolabe calibrate runs --without {0}', or use --method robust, extended or "
      "umbmark"},
     {experiment::AnalysisProblem::only_some_have_scans,
-     " with --without, or take the poses that follow from the scans for ground truth with --method ml"},
+     "; --without leaves a run out, and --method ml takes the poses that follow from the scans for ground "
+     "truth"},
     {experiment::AnalysisProblem::no_truth,
      ": drive again with 'astrolabe umbmark' or 'astrolabe record --truth SOURCE', or give a film of the "
      "drives with --truth film:FILE"},
