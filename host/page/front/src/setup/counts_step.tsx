@@ -1,13 +1,8 @@
 import { useState } from "preact/hooks";
 import { type Length, LengthField } from "./length_field";
-import { changes_text, parameter, type Values } from "./put_in_force";
-import { Problem, type StepProps, use_work, Verdict } from "./step";
-
-export interface Rolled {
-  agrees: boolean;
-  sentence: string;
-  parameters: Values;
-}
+import { parameter } from "./put_in_force";
+import { type Rolled, RolledVerdict } from "./rolled_verdict";
+import { Problem, type StepProps, use_work } from "./step";
 
 const kTurns = 10;
 
@@ -32,10 +27,6 @@ export function CountsStep({ robot, progress, load, finish }: StepProps) {
       judge(await robot.backend.ask<Rolled>("robot/roll", length.unit === "m" ? { distance_m: length.value } : { turns: length.value }));
       set_rolls(false);
     });
-  const take = ({ sentence, parameters }: Rolled) =>
-    work(async () => {
-      if (await load(parameters, true)) finish([`mended: ${sentence}`]);
-    });
   const metres = kTurns * Math.PI * parameter(robot, "wheel_diameter");
   return (
     <>
@@ -55,17 +46,9 @@ export function CountsStep({ robot, progress, load, finish }: StepProps) {
         </form>
       )}
       {rolled && (
-        <Verdict good={rolled.agrees}>
-          <p>{rolled.sentence}</p>
-          {Object.keys(rolled.parameters).length > 0 && <p>To be loaded: {changes_text(robot, rolled.parameters)}.</p>}
-          <div class="row">
-            {rolled.agrees && <button type="button" onClick={() => finish([rolled.sentence])}>Go on</button>}
-            {Object.keys(rolled.parameters).length > 0 && (
-              <button type="button" disabled={busy} aria-busy={busy} onClick={() => take(rolled)}>Mend it: load them</button>
-            )}
-            <button type="button" class="secondary" disabled={busy} onClick={begin}>Roll again</button>
-          </div>
-        </Verdict>
+        <RolledVerdict {...{ robot, load, finish, busy, work, rolled }} agreed={rolled.sentence}>
+          <button type="button" class="secondary" disabled={busy} onClick={begin}>Roll again</button>
+        </RolledVerdict>
       )}
       <Problem sentence={problem} />
     </>

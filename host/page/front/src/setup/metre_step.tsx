@@ -1,10 +1,9 @@
 import { useState } from "preact/hooks";
 import { type Event_, Refusal } from "../backend";
 import type { Robot } from "../live/robot";
-import type { Rolled } from "./counts_step";
 import { type Length, LengthField } from "./length_field";
-import { changes_text } from "./put_in_force";
-import { Problem, type StepProps, use_work, Verdict } from "./step";
+import { type Rolled, RolledVerdict } from "./rolled_verdict";
+import { Problem, type StepProps, use_work } from "./step";
 
 /** Until the path that is driven ends; rejects if it ends early. */
 function end_of_path(robot: Robot): Promise<void> {
@@ -55,10 +54,6 @@ export function MetreStep({ robot, load, finish }: StepProps) {
       set_driven(true);
     });
   const compare = () => work(async () => judge(await robot.backend.ask<Rolled>("robot/roll", { distance_m: length.value })));
-  const take = ({ sentence, parameters }: Rolled) =>
-    work(async () => {
-      if (await load(parameters, true)) finish([`mended: ${sentence}`]);
-    });
   return (
     <>
       <p>Mark where the robot stands, and keep 1.5 m ahead of it free. It drives one metre by itself, slowly; then measure how far it came.</p>
@@ -73,14 +68,10 @@ export function MetreStep({ robot, load, finish }: StepProps) {
         </form>
       )}
       {rolled && (
-        <Verdict good={rolled.agrees}>
-          <p>{rolled.sentence}</p>
-          {Object.keys(rolled.parameters).length > 0 && <p>To be loaded: {changes_text(robot, rolled.parameters)}.</p>}
-          <div class="row">
-            {rolled.agrees && <button type="button" onClick={() => finish([`one metre was ${length.value} m: ${rolled.sentence}`])}>Go on</button>}
-            {Object.keys(rolled.parameters).length > 0 && <button type="button" disabled={busy} onClick={() => take(rolled)}>Mend it: load them</button>}
-          </div>
-        </Verdict>
+        <RolledVerdict
+          {...{ robot, load, finish, busy, work, rolled }}
+          agreed={`one metre was ${length.value} m: ${rolled.sentence}`}
+        />
       )}
       <Problem sentence={problem} />
     </>
