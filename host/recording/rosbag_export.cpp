@@ -1,7 +1,5 @@
 #include "host/recording/rosbag_export.hpp"
 
-#include <algorithm>
-
 #include "host/base/error.hpp"
 #include "host/formats/files/db3_writer.hpp"
 #include "host/formats/messages/joint_state.hpp"
@@ -24,9 +22,7 @@ class Exporter {
     counts_ = add("/wheel_counts", recording::wheel_counts_type());
     truth_ = add("/truth", ros2::pose_stamped_type());
     transforms_ = add("/tf", ros2::tf_message_type());
-    if (std::ranges::any_of(run.odometry,
-                            [](const OdometrySample& sample) { return sample.gyro.has_value(); }))
-      gyro_poses_ = add("/odom_gyro", ros2::odometry_type());
+    if (!run.gyro.empty()) gyro_poses_ = add("/odom_gyro", ros2::odometry_type());
     if (!run.slips.empty()) slips_ = add("/gyro_slip", recording::gyro_slip_type());
     if (!run.scans.empty()) scans_ = add("/scan", recording::laser_scan_type());
     if (!robot_.knows_sizes()) return;
@@ -42,7 +38,6 @@ class Exporter {
     bag_.write(odometry_, time_ns, recording::encode_odometry(sample));
     bag_.write(counts_, time_ns,
                recording::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
-    if (sample.gyro) bag_.write(gyro_poses_, time_ns, recording::encode_gyro_pose(*sample.gyro));
     bag_.write(transforms_, time_ns, robot_.transforms());
     if (robot_.knows_sizes()) bag_.write(joints_, time_ns, robot_.joints());
   }
@@ -50,6 +45,11 @@ class Exporter {
     const std::int64_t time_ns = log_time_.ns(sample.time_us);
     describe(time_ns);
     bag_.write(truth_, time_ns, recording::encode_truth(sample));
+  }
+  void write(const GyroPose& pose) {
+    const std::int64_t time_ns = log_time_.ns(pose.time_us);
+    describe(time_ns);
+    bag_.write(gyro_poses_, time_ns, recording::encode_gyro_pose(pose));
   }
   void write(const GyroSlip& slip) {
     const std::int64_t time_ns = log_time_.ns(slip.time_us);

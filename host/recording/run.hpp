@@ -18,7 +18,7 @@
 /// Times   microseconds on the robot's clock, both streams (`truth_clock` says how truth got there).
 namespace astro::recording {
 
-/// The pose by wheels and gyro beside that of the wheels, at most 10 ms older.
+/// The pose by wheels and gyro. A stream of its own, because most robots have none: it costs no memory in their samples.
 struct GyroPose {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
@@ -30,7 +30,6 @@ struct OdometrySample {
   double x_m = 0, y_m = 0, theta_rad = 0;          // theta continuous, not wrapped
   double v_mps = 0, omega_radps = 0;               // measured body twist
   std::int32_t left_counts = 0, right_counts = 0;  // running encoder counts, forward positive, wrap at 2^32
-  std::optional<GyroPose> gyro = {};               // nothing of a robot that uses none
 };
 
 /// The gyro noticed that the robot turned without its wheels: a kick, or a wheel that slipped.
@@ -75,6 +74,7 @@ struct Run {
   /// Of a laser scanner on the robot, on the robot's clock; the place of the scanner is not known.
   std::vector<lidar::Scan> scans = {};
   std::vector<GyroSlip> slips = {};
+  std::vector<GyroPose> gyro = {};  // in order of time; none of a robot that uses no gyro
 };
 
 }  // namespace astro::recording

@@ -26,12 +26,6 @@ namespace {
 constexpr std::size_t kFreeSamples = 300'000, kLeastBytesPerSample = 20;
 
 /// The samples of a file's messages, before poses and counts are paired.
-/// A pose with the gyro is at most 10 ms older than its odometry.
-bool is_of(const GyroPose& pose, const OdometrySample& sample) {
-  constexpr std::int64_t kApart_us = 20'000;
-  return pose.time_us <= sample.time_us && pose.time_us > sample.time_us - kApart_us;
-}
-
 struct Streams {
   std::string file;
   std::size_t most = 0;  // samples
@@ -41,12 +35,13 @@ struct Streams {
   std::deque<recording::WheelCounts> counts;
   std::deque<TruthSample> truth;
   std::deque<lidar::Scan> scans;
+  std::deque<GyroPose> gyro;
   std::deque<GyroSlip> slips;
   bool unreadable = false;
 
   template <class T>
   void keep(std::deque<T>& stream, std::optional<T> sample) {
-    if (odometry.size() + counts.size() + truth.size() + scans.size() + slips.size() >= most)
+    if (odometry.size() + counts.size() + truth.size() + scans.size() + gyro.size() + slips.size() >= most)
       throw Error(file + " holds more samples than any drive whose recording has its size: it is damaged",
                   RecordingProblem::too_many_samples, {file});
     if (sample)
@@ -60,9 +55,7 @@ struct Streams {
     if (schema->name == ros2::odometry_type().name && channel.topic == "/odom") {
       keep(odometry, recording::decode_odometry(message.data));
     } else if (schema->name == ros2::odometry_type().name && channel.topic == "/odom_gyro") {
-      // It stands behind its odometry in the file. In a damaged file that may be missing.
-      const auto pose = recording::decode_gyro_pose(message.data);
-      if (pose && !odometry.empty() && is_of(*pose, odometry.back())) odometry.back().gyro = pose;
+      keep(gyro, recording::decode_gyro_pose(message.data));
     } else if (schema->name == recording::wheel_counts_type().name && channel.topic == "/wheel_counts") {
       keep(counts, recording::decode_counts(message.data));
     } else if (schema->name == ros2::pose_stamped_type().name && channel.topic == "/truth") {
@@ -181,14 +174,18 @@ void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad)
   }
 }
 
-/// The same for the headings with the gyro, each within half a turn of the one before, or of the wheels'.
-void unwrap_gyro(std::deque<OdometrySample>& samples) {
-  std::optional<double> apart_rad;  // from the wheels' heading
-  for (OdometrySample& sample : samples) {
-    if (!sample.gyro || !std::isfinite(sample.gyro->theta_rad) || !std::isfinite(sample.theta_rad)) continue;
-    const double off_rad = sample.gyro->theta_rad - sample.theta_rad - apart_rad.value_or(0);
-    sample.gyro->theta_rad -= std::round(off_rad / (2 * std::numbers::pi)) * (2 * std::numbers::pi);
-    apart_rad = sample.gyro->theta_rad - sample.theta_rad;
+/// The same for the headings with the gyro, each within half a turn of the one before, as far from the wheels' next heading as that
+/// one was.
+void unwrap_gyro(std::deque<GyroPose>& poses, const std::deque<OdometrySample>& odometry) {
+  double apart_rad = 0;
+  auto wheels = odometry.begin();
+  for (GyroPose& pose : poses) {
+    while (wheels != odometry.end() && wheels->time_us < pose.time_us) ++wheels;
+    if (wheels == odometry.end()) return;
+    if (!std::isfinite(pose.theta_rad) || !std::isfinite(wheels->theta_rad)) continue;
+    const double off_rad = pose.theta_rad - wheels->theta_rad - apart_rad;
+    pose.theta_rad -= std::round(off_rad / (2 * std::numbers::pi)) * (2 * std::numbers::pi);
+    apart_rad = pose.theta_rad - wheels->theta_rad;
   }
 }
 
@@ -197,11 +194,12 @@ Run run_in(ByteSource& source, const std::string& name, Damage damage) {
   if (damage == Damage::accepted && file.warning) drop_singles(file.streams);
   pair_counts(name, file.warning.has_value(), file.streams);
   unwrap(file.streams.odometry, file.record.first_odometry_heading_rad);
-  unwrap_gyro(file.streams.odometry);
+  unwrap_gyro(file.streams.gyro, file.streams.odometry);
   unwrap(file.streams.truth, file.record.first_truth_heading_rad);
   file.streams.counts = {};
   return {std::move(file.record.info), drained(file.streams.odometry), drained(file.streams.truth),
-          std::move(file.warning),     drained(file.streams.scans),    drained(file.streams.slips)};
+          std::move(file.warning),     drained(file.streams.scans),    drained(file.streams.slips),
+          drained(file.streams.gyro)};
 }
 
 }  // namespace

@@ -60,10 +60,6 @@ void RunWriter::add(const OdometrySample& sample) {
   mcap_.write(odometry_, time_ns, recording::encode_odometry(sample));
   mcap_.write(counts_, time_ns,
               recording::encode_counts({sample.time_us, sample.left_counts, sample.right_counts}));
-  if (sample.gyro) {
-    if (!gyro_poses_) gyro_poses_ = add_topic(mcap_, "/odom_gyro", ros2::odometry_type());
-    mcap_.write(*gyro_poses_, time_ns, recording::encode_gyro_pose(*sample.gyro));
-  }
   if (!viewers_are_due(sample.time_us)) return;
   shown_us_ = sample.time_us;
   mcap_.write(transforms_, time_ns, robot_.transforms());
@@ -82,6 +78,13 @@ void RunWriter::add(const lidar::Scan& scan) {
   if (!scans_) scans_ = add_topic(mcap_, "/scan", recording::laser_scan_type());
   describe(time_ns);
   mcap_.write(*scans_, time_ns, recording::encode_scan(scan));
+}
+
+void RunWriter::add(const GyroPose& pose) {
+  const auto time_ns = static_cast<std::uint64_t>(log_time_.ns(pose.time_us));
+  if (!gyro_poses_) gyro_poses_ = add_topic(mcap_, "/odom_gyro", ros2::odometry_type());
+  describe(time_ns);
+  mcap_.write(*gyro_poses_, time_ns, recording::encode_gyro_pose(pose));
 }
 
 void RunWriter::add(const GyroSlip& slip) {

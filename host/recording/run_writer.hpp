@@ -18,9 +18,8 @@ namespace astro::recording {
 /// (renamed) can be read up to about its last two seconds.
 ///
 /// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
-///         /truth geometry_msgs/msg/PoseStamped (frame truth); if the robot uses a gyro, /odom_gyro nav_msgs/msg/Odometry, behind the
-///         /odom that it belongs to; if there are slips, /gyro_slip astrolabe_msgs/msg/GyroSlip; if there are scans, /scan
-///         sensor_msgs/msg/LaserScan; run info as Metadata "astrolabe.run". For viewers /tf and,
+///         /truth geometry_msgs/msg/PoseStamped (frame truth); if the robot uses a gyro, /odom_gyro nav_msgs/msg/Odometry; if there
+///         are slips, /gyro_slip astrolabe_msgs/msg/GyroSlip; if there are scans, /scan sensor_msgs/msg/LaserScan; run info as Metadata "astrolabe.run". For viewers /tf and,
 ///         if the run knows the robot's sizes, /joint_states and /robot_description (robot_messages.hpp).
 /// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
 ///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others at their
@@ -35,6 +34,7 @@ class RunWriter {
   void add(const OdometrySample& sample);
   void add(const TruthSample& sample);
   void add(const lidar::Scan& scan);
+  void add(const GyroPose& pose);
   void add(const GyroSlip& slip);
   /// All else that the robot measures and commands, for plots: /telemetry, beside an /odom of the same time.
   void add(const ros2::msg::Telemetry& telemetry, std::int64_t time_us);

@@ -25,14 +25,25 @@ OdometrySample to_sample(const protocol::Telemetry& telemetry) {
   sample.omega_radps = telemetry.twist.omega_uradps * 1e-6;
   sample.left_counts = telemetry.counts.left;
   sample.right_counts = telemetry.counts.right;
-  const bool with_gyro = (telemetry.fields & protocol::Telemetry::kFused) != 0 &&
-                         telemetry.fused.gyro != protocol::GyroState::off;
-  if (!with_gyro) return sample;
-  GyroPose& gyro = sample.gyro.emplace();
-  gyro.time_us = static_cast<std::int64_t>(telemetry.fused.time_us);
-  put_pose(gyro, telemetry.fused);
-  gyro.omega_radps = telemetry.fused.rate_uradps * 1e-6;
   return sample;
+}
+
+std::optional<GyroPose> gyro_pose(const protocol::Telemetry& telemetry) {
+  if ((telemetry.fields & protocol::Telemetry::kFused) == 0 ||
+      telemetry.fused.gyro == protocol::GyroState::off)
+    return std::nullopt;
+  GyroPose pose;
+  pose.time_us = static_cast<std::int64_t>(telemetry.fused.time_us);
+  put_pose(pose, telemetry.fused);
+  pose.omega_radps = telemetry.fused.rate_uradps * 1e-6;
+  return pose;
+}
+
+std::optional<GyroPose> NewGyroPoses::next(const protocol::Telemetry& telemetry) {
+  const std::optional<GyroPose> pose = gyro_pose(telemetry);
+  if (!pose || pose->time_us == last_us_) return std::nullopt;
+  last_us_ = pose->time_us;
+  return pose;
 }
 
 GyroSlip to_sample(const protocol::SlipFound& found) {

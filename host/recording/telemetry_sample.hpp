@@ -1,13 +1,27 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "common/protocol/telemetry.hpp"
 #include "host/recording/run.hpp"
 
 namespace astro::recording {
 
 /// A sample of the robot's telemetry in SI units, on the robot's clock. Precondition: it has the groups pose, counts and twist.
-/// The pose with the gyro is there if the group fused is, and the robot uses a gyro.
 OdometrySample to_sample(const protocol::Telemetry& telemetry);
 GyroSlip to_sample(const protocol::SlipFound& found);
+/// Nothing without the group fused, and of a robot that uses no gyro.
+std::optional<GyroPose> gyro_pose(const protocol::Telemetry& telemetry);
+
+/// The poses with the gyro in a stream of telemetry, each once: the robot has a new one every 10 ms and may send samples more often.
+class NewGyroPoses {
+ public:
+  /// The pose of the next sample; nothing if it has none, or that of the sample before.
+  std::optional<GyroPose> next(const protocol::Telemetry& telemetry);
+
+ private:
+  std::optional<std::int64_t> last_us_;
+};
 
 }  // namespace astro::recording

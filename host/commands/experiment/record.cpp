@@ -81,15 +81,8 @@ class StreamedRecording {
   void add(const Sample& sample) {
     open();
     run_->add(sample);
-    if (csv_) csv_->add(sample);
-  }
-  void add(const lidar::Scan& scan) {
-    open();
-    run_->add(scan);
-  }
-  void add(const recording::GyroSlip& slip) {
-    open();
-    run_->add(slip);
+    if constexpr (requires { csv_->add(sample); })  // scans and what the gyro says have no table
+      if (csv_) csv_->add(sample);
   }
   void close() {
     open();
@@ -154,7 +147,8 @@ void listen(RecordOptions& options) {
   const experiment::Recorded recorded = experiment::record_until(
       *client, *truth,
       {[&](const auto& sample) { streamed.add(sample); }, [&](const auto& sample) { streamed.add(sample); },
-       [&](const auto& scan) { streamed.add(scan); }, [&](const auto& slip) { streamed.add(slip); }},
+       [&](const auto& scan) { streamed.add(scan); }, [&](const auto& slip) { streamed.add(slip); },
+       [&](const auto& pose) { streamed.add(pose); }},
       done);
   progress.clear();
   streamed.close();

@@ -49,7 +49,7 @@ std::string link_line(const LinkFigures& link) {
 
 /// Nothing for a robot that uses no gyro.
 std::string gyro_line(const Telemetry& telemetry) {
-  const auto at = recording::to_sample(telemetry).gyro;
+  const auto at = recording::gyro_pose(telemetry);
   if (!at) return {};
   return fmt::format("  gyro      {:<9} rate {:+8.2f} deg/s   heading {:10.2f} deg   slips {}\n",
                      protocol::name(telemetry.fused.gyro), without_minus_zero(degrees(at->omega_radps), 2),
@@ -117,7 +117,7 @@ Json to_json(const Telemetry& telemetry) {
                            telemetry.counts.left)},
             {"right", wheel(telemetry.setpoint.right_umps, telemetry.wheel_speed.right_umps,
                             telemetry.duty.right, telemetry.counts.right)}};
-  if (at.gyro) json["gyro"] = gyro_json(*at.gyro, telemetry);
+  if (const auto pose = recording::gyro_pose(telemetry)) json["gyro"] = gyro_json(*pose, telemetry);
   return json;
 }
 

@@ -8,7 +8,6 @@
 #include "host/commands/base/advice.hpp"
 #include "host/console/console.hpp"
 #include "host/experiment/drive/record_run.hpp"
-#include "host/recording/telemetry_sample.hpp"
 #include "host/robot/parameters/parameters.hpp"
 
 namespace astro::commands {
@@ -26,8 +25,10 @@ void DriveRecording::check(const std::filesystem::path& file) {
 DriveRecording::DriveRecording(const std::filesystem::path& file, robot::Client& client)
     : info_(describe_robot(client)),
       writer_(file, info_),
-      slips_(client.on<protocol::SlipFound>([this](const protocol::SlipFound& found) {
-        if (begun_) write(recording::to_sample(found));
+      slips_(client.on<protocol::SlipFound>(
+          [this](const protocol::SlipFound& found) { write_since_start(recording::to_sample(found)); })),
+      gyro_(client.on<protocol::Telemetry>([this](const protocol::Telemetry& telemetry) {
+        if (const auto pose = gyro_poses_.next(telemetry)) write_since_start(*pose);
       })) {}
 
 DriveRecording::~DriveRecording() {
@@ -41,8 +42,13 @@ DriveRecording::~DriveRecording() {
 }
 
 void DriveRecording::add(const recording::OdometrySample& sample) {
-  begun_ = true;
+  if (!first_us_) first_us_ = sample.time_us;
   write(sample);
+}
+
+template <class Sample>
+void DriveRecording::write_since_start(const Sample& sample) {
+  if (first_us_ && sample.time_us >= *first_us_) write(sample);
 }
 
 template <class Sample>

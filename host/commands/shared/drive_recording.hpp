@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <optional>
 
 #include "host/recording/run_writer.hpp"
+#include "host/recording/telemetry_sample.hpp"
 #include "host/robot/client/client.hpp"
 
 namespace astro::commands {
@@ -37,13 +40,17 @@ class DriveRecording {
 
  private:
   template <class Sample>
+  void write_since_start(const Sample& sample);
+  template <class Sample>
   void write(const Sample& sample);
 
   recording::RunInfo info_;
   recording::RunWriter writer_;
-  bool open_ = true, begun_ = false;
+  bool open_ = true;
+  std::optional<std::int64_t> first_us_;  // of the odometry
   std::exception_ptr failure_;
-  robot::Subscription slips_;
+  recording::NewGyroPoses gyro_poses_;
+  robot::Subscription slips_, gyro_;
 };
 
 }  // namespace astro::commands

@@ -67,6 +67,8 @@ class Collector {
         moved_(std::move(moved)),
         subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) {
           take(recording::to_sample(telemetry));
+          if (const auto pose = gyro_poses_.next(telemetry); pose && pose->time_us >= *first_us_)
+            sink_.gyro(*pose);
           if (++count_.odometry % kSamplesPerLook == 0) look();
         })),
         slips_(client.on<protocol::SlipFound>([this](const protocol::SlipFound& found) { take(found); })) {
@@ -160,6 +162,7 @@ class Collector {
   std::deque<lidar::Scan> early_scans_;       // the same of scans
   std::optional<std::int64_t> first_us_, newest_truth_us_, newest_scan_us_, stand_from_us_;
   std::int64_t newest_us_ = 0;
+  recording::NewGyroPoses gyro_poses_;
   robot::Subscription subscription_, slips_;
 };
 
@@ -180,7 +183,8 @@ void drive_recorded(robot::Client& client, truth::Source& truth, const robot::Pa
   const SampleSink sink{[&](const auto& sample) { run.odometry.push_back(sample); },
                         [&](const auto& sample) { run.truth.push_back(sample); },
                         [&](const auto& scan) { run.scans.push_back(scan); },
-                        [&](const auto& slip) { run.slips.push_back(slip); }};
+                        [&](const auto& slip) { run.slips.push_back(slip); },
+                        [&](const auto& pose) { run.gyro.push_back(pose); }};
   Collector collector(client, truth, sink, hooks.moved);
   const auto stand = [&] {
     collector.stand(kRest, hooks.interrupted);
@@ -268,7 +272,8 @@ Recorded record_until(robot::Client& client, truth::Source& truth, const SampleS
       }
     };
   };
-  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth), guarded(sink.scan), guarded(sink.slip)};
+  const SampleSink guard{guarded(sink.odometry), guarded(sink.truth), guarded(sink.scan), guarded(sink.slip),
+                         guarded(sink.gyro)};
   Collector collector(client, truth, guard);
   std::optional<Remark> warning;
   try {

@@ -58,6 +58,7 @@ struct SampleSink {
   std::function<void(const recording::TruthSample&)> truth;
   std::function<void(const lidar::Scan&)> scan = [](const lidar::Scan&) {};
   std::function<void(const recording::GyroSlip&)> slip = [](const recording::GyroSlip&) {};
+  std::function<void(const recording::GyroPose&)> gyro = [](const recording::GyroPose&) {};
 };
 
 struct Recorded {

@@ -63,7 +63,6 @@ bool OdometryTrack::take(const recording::OdometrySample& sample) {
     gyro_uncertainty_->restart(sample.theta_rad);
     gyro_heading_rad_.reset();
   }
-  if (!sample.gyro) gyro_heading_rad_.reset();
   heading_rad_ = sample.theta_rad;
   last_ = sample;
   return follows_wheels;
@@ -91,16 +90,17 @@ double OdometryTrack::possible_turn_rad(double gap_s) const {
   return kBeyondLimit * std::abs(geometry_.factors.e) * geometry_.fastest_radps * gap_s;
 }
 
-void OdometryTrack::take_gyro(const recording::GyroPose& pose, protocol::GyroState state) {
+void OdometryTrack::take_gyro(const std::optional<recording::GyroPose>& pose, protocol::GyroState state) {
+  if (!pose) return gyro_heading_rad_.reset();
   if (gyro_heading_rad_) {
-    step_.turn_rad = pose.theta_rad - *gyro_heading_rad_;
+    step_.turn_rad = pose->theta_rad - *gyro_heading_rad_;
     step_.gyro_counts = state == protocol::GyroState::running;
     step_.saturated = state == protocol::GyroState::saturated;
     gyro_uncertainty_->advance(step_);
   } else {
-    gyro_uncertainty_->restart(pose.theta_rad, uncertainty_->covariance());
+    gyro_uncertainty_->restart(pose->theta_rad, uncertainty_->covariance());
   }
-  gyro_heading_rad_ = pose.theta_rad;
+  gyro_heading_rad_ = pose->theta_rad;
 }
 
 Symmetric3 OdometryTrack::counts_covariance() const {
@@ -172,7 +172,7 @@ bool ContinuousOdometry::take(RobotSession& session, const protocol::Telemetry& 
   sample_ = recording::to_sample(telemetry);
   settle_unanswered();
   if (!track_.take(sample_)) event_ = "another program has set the pose";
-  if (sample_.gyro) track_.take_gyro(*sample_.gyro, telemetry.fused.gyro);
+  track_.take_gyro(recording::gyro_pose(telemetry), telemetry.fused.gyro);
   pose_ = telemetry.pose;
   seen_at_ = session.client().now();
   seen_device_us_ = telemetry.device_time_us;

@@ -28,9 +28,9 @@ class OdometryTrack {
   /// The covariance then begins at zero. Precondition: set_geometry() was called.
   bool take(const recording::OdometrySample& sample);
 
-  /// Takes the pose with the gyro of the same sample, after take(). The first one is as uncertain as the wheels' pose, where it
-  /// begins.
-  void take_gyro(const recording::GyroPose& pose, protocol::GyroState state);
+  /// Takes the pose with the gyro of the same sample, if there is one, after take(). The first one is as uncertain as the wheels'
+  /// pose, where it begins.
+  void take_gyro(const std::optional<recording::GyroPose>& pose, protocol::GyroState state);
   /// Its covariance, as covariance().
   calibration::Symmetric3 gyro_covariance() const {
     return counts_covariance() + gyro_uncertainty_->covariance();

@@ -21,10 +21,10 @@ constexpr microseconds kTick = milliseconds(1), kIdle = milliseconds(5);
 /// The longest time for which a step reads parameters, because a stop has to wait for the end of the step.
 constexpr microseconds kShareOfTable = milliseconds(5);
 
-/// The same state with the gyro's pose, and with its rate while it counts. Precondition: the sample has one.
-BaseState with_gyro(BaseState state, const OdometryTrack& track, bool counts) {
+/// The same state with the gyro's pose, and with its rate while it counts.
+BaseState with_gyro(BaseState state, const recording::GyroPose& gyro, const OdometryTrack& track,
+                    bool counts) {
   recording::OdometrySample& sample = state.sample;
-  const recording::GyroPose& gyro = *sample.gyro;
   state.time_ns -= 1000 * (sample.time_us - gyro.time_us);
   state.covariance = track.gyro_covariance();
   sample.x_m = gyro.x_m;
@@ -202,12 +202,10 @@ void Driver::publish(const protocol::Telemetry& telemetry, std::int64_t time_ns)
                         track.left_counts(),
                         track.right_counts()};
   publications_.odometry.publish(odometry(state, names_), time_ns);
-  // The robot has a new one every 10 ms.
-  if (sample.gyro && sample.gyro->time_us != published_gyro_us_ &&
-      publications_.odometry_with_gyro.wanted()) {
-    published_gyro_us_ = sample.gyro->time_us;
+  if (const auto gyro = gyro_poses_.next(telemetry); gyro && publications_.odometry_with_gyro.wanted()) {
     const bool counts = telemetry.fused.gyro == protocol::GyroState::running;
-    publications_.odometry_with_gyro.publish(odometry(with_gyro(state, track, counts), names_), time_ns);
+    publications_.odometry_with_gyro.publish(odometry(with_gyro(state, *gyro, track, counts), names_),
+                                             time_ns);
   }
   if (publications_.tf.wanted())
     publications_.tf.publish(transforms(state, model_, names_, options_.odom_tf), time_ns);

@@ -13,6 +13,7 @@
 #include "host/live/driver/requests.hpp"
 #include "host/live/driver/robot_link.hpp"
 #include "host/live/driver/robot_parameter_table.hpp"
+#include "host/recording/telemetry_sample.hpp"
 
 namespace astro::live {
 
@@ -99,13 +100,13 @@ class Driver {
   Publications publications_;
   Requests requests_;
   ros2::RobotModel model_;
-  std::optional<protocol::Telemetry> newest_;                      // of this session
+  std::optional<protocol::Telemetry> newest_;  // of this session
+  recording::NewGyroPoses gyro_poses_;
   std::string noticed_;                                            // the last sentence
   bool hears_clock_ = false;                                       // subscribes to /clock
   bool set_up_ = false;                                            // the robot has what the options say
   bool restarted_ = false;                                         // the robot, in the session before
   std::int64_t published_ns_ = 0;                                  // since 1970
-  std::int64_t published_gyro_us_ = 0;                             // on the robot's clock
   std::int64_t battery_ns_ = 0, looked_ns_ = 0, reported_ns_ = 0;  // on the steady clock
   ros2::msg::DiagnosticArray reported_;
 };

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "host/live/driver/publications.hpp"
-#include "host/recording/telemetry_sample.hpp"
 
 namespace astro::page {
 namespace {
@@ -45,6 +44,7 @@ void WatchedRecording::add(const protocol::Telemetry& telemetry,
   try {
     for (const recording::TruthSample& sample : truth)
       if (last_us_ && sample.time_us >= *last_us_) writer_.add(sample);
+    if (const auto pose = gyro_poses_.next(telemetry); pose && last_us_) writer_.add(*pose);
     last_us_ = time_us;
     writer_.add(recording::to_sample(telemetry));
     writer_.add(to_message(telemetry), time_us);

@@ -9,6 +9,7 @@
 #include "host/base/error.hpp"
 #include "host/recording/run.hpp"
 #include "host/recording/run_writer.hpp"
+#include "host/recording/telemetry_sample.hpp"
 
 namespace astro::page {
 
@@ -30,6 +31,7 @@ class WatchedRecording {
   std::string file_;  // without the folder
   recording::RunInfo info_;
   recording::RunWriter writer_;
+  recording::NewGyroPoses gyro_poses_;
   std::optional<std::int64_t> last_us_;
   std::optional<Error> failure_;
 };

@@ -59,7 +59,7 @@ TEST(RosbagExport, HasTheScansOfARunThatHasAny) {
 TEST(RosbagExport, HasWhatTheGyroSaidOfARobotThatUsesOne) {
   recording::Run run = driven();
   for (std::size_t i = 0; i < run.odometry.size(); i += 2)
-    run.odometry[i].gyro = GyroPose{run.odometry[i].time_us, 1, 2, 0.5, 0.1};
+    run.gyro.push_back({run.odometry[i].time_us, 1, 2, 0.5, 0.1});
   run.slips = {{150'000, 0.2}};
   const test::TemporaryFolder folder;
   export_rosbag(run, folder.path() / "with gyro");

@@ -35,7 +35,7 @@ struct GyroRun : testing::Test {
   /// Of the gyro's heading at the end. Within 6 s its walk of 0.025 degrees per root second and its bias, known to 0.035 degrees per
   /// second, are 0.2 degrees together; three times that is allowed.
   double error_rad(const recording::Run& run) const {
-    return run.odometry.back().gyro->theta_rad - (desk.robot->board().truth().theta_rad - start_rad);
+    return run.gyro.back().theta_rad - (desk.robot->board().truth().theta_rad - start_rad);
   }
   static constexpr double kMost_rad = 0.011;
 
@@ -48,12 +48,16 @@ struct GyroRun : testing::Test {
 TEST_F(GyroRun, HasThePoseWithTheGyroBesideThatOfTheWheels) {
   const recording::Run run = driven();
   ASSERT_FALSE(run.odometry.empty());
-  for (const recording::OdometrySample& sample : run.odometry) {
-    ASSERT_TRUE(sample.gyro.has_value());
-    EXPECT_LE(std::abs(sample.time_us - sample.gyro->time_us), 10'000);
+  const std::int64_t first_us = run.odometry.front().time_us, last_us = run.odometry.back().time_us;
+  std::int64_t before_us = first_us - 1;
+  for (const recording::GyroPose& pose : run.gyro) {
+    EXPECT_GT(pose.time_us, before_us) << "each once";
+    EXPECT_LE(pose.time_us - before_us, 20'000) << "a new one every 10 ms";
+    before_us = pose.time_us;
   }
+  EXPECT_LE(last_us - before_us, 10'000);
   EXPECT_NEAR(error_rad(run), 0, kMost_rad);
-  EXPECT_NEAR(run.odometry.back().gyro->x_m, 1, 0.01);
+  EXPECT_NEAR(run.gyro.back().x_m, 1, 0.01);
   EXPECT_TRUE(run.slips.empty());
   EXPECT_TRUE(notices.empty());
 }
@@ -72,8 +76,8 @@ TEST_F(GyroRun, RemembersAndTellsAKickWhichNoWheelHasSeen) {
   EXPECT_GT(run.slips[0].turn_rad, 0.01) << "0.6 degrees at least";
   EXPECT_LT(run.slips[0].turn_rad, 1.1 * kKick_rad);
   EXPECT_NEAR(error_rad(run), 0, kMost_rad);
-  const recording::OdometrySample& last = run.odometry.back();
-  EXPECT_GT(last.gyro->theta_rad - last.theta_rad, kKick_rad / 2) << "the wheels do not know of it";
+  EXPECT_GT(run.gyro.back().theta_rad - run.odometry.back().theta_rad, kKick_rad / 2)
+      << "the wheels do not know of it";
   EXPECT_THAT(notices, testing::ElementsAre(Tells(recording::RecordingProblem::turned_unseen, "run", _, _)));
 }
 
