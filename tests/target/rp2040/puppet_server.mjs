@@ -7,7 +7,7 @@ import { Pico } from './rig/pico.mjs';
 const [image, seed] = process.argv.slice(2);
 const symbols = symbolsOf(`${image}.elf`);
 const ready = symbols.get('puppet_ready'), box = symbols.get('puppet_mailbox');
-const kArgument = 4, kAnswer = 12, kBytes = 20, kReadPort = 8, kReadFlash = 13, kUniqueId = 14; // as in puppet.hpp
+const kArgument = 4, kAnswer = 12, kBytes = 20; // the places in puppet.hpp's Mailbox
 const pico = new Pico({ seed: Number(seed), image: readUf2(`${image}.uf2`) });
 pico.flash.times = { erase: 100e3, program: 10e3 };
 
@@ -23,7 +23,7 @@ function start() {
 }
 
 // Time passes only in here, in `pass` and in `turn`. The wire waits, so that a host that does not read stays one.
-function call(number, first, second, bytes) {
+function call(number, first, second, back, bytes) {
   ram().set(bytesOf(bytes));
   pico.setWord(box + kArgument, first);
   pico.setWord(box + kArgument + 4, second);
@@ -34,13 +34,12 @@ function call(number, first, second, bytes) {
   pico.chip.uart0.hold(false);
   if (pico.restarts !== restarts) return '0';
   const answer = BigInt(pico.word(box + kAnswer)) | (BigInt(pico.word(box + kAnswer + 4)) << 32n);
-  const size = number === kReadPort ? Number(answer) : number === kReadFlash ? second : number === kUniqueId ? 16 : 0;
-  return size ? `${answer} ${hex(ram().subarray(0, size))}` : `${answer}`;
+  return back ? `${answer} ${hex(ram().subarray(0, back))}` : `${answer}`;
 }
 
 const commands = {
   start: () => { start(); },
-  call: (...words) => call(...words.slice(0, 3).map(Number), words[3]),
+  call: (...words) => call(...words.slice(0, 4).map(Number), words[4]),
   pass: (ms) => { pico.runFor(Number(ms) * 1e6); },
   counts: (...counts) => { pico.setCounts(counts.map(Number)); },
   turn: (...counts) => { pico.turn(counts.map(Number)); },

@@ -73,9 +73,11 @@ class PicoPuppet {
 
   std::uint64_t call(Call call, std::uint32_t first = 0, std::uint32_t second = 0) {
     const bool carries = call == Call::write_port || call == Call::program;
+    const bool brings = call == Call::read_port || call == Call::read_flash;
+    const std::uint32_t back = brings ? second : call == Call::unique_id ? 16 : 0;
     std::ostringstream question;
-    question << "call " << static_cast<std::uint32_t>(call) << ' ' << first << ' ' << second << ' '
-             << (carries ? hex({mailbox_.bytes, second}) : "-");
+    question << "call " << static_cast<std::uint32_t>(call) << ' ' << first << ' ' << second << ' ' << back
+             << ' ' << (carries ? hex({mailbox_.bytes, second}) : "-");
     const auto words = say(question.str());
     if (words.size() > 1) {
       const auto bytes = bytes_of(words[1]);
