@@ -51,7 +51,7 @@ Bytes cyclone_reply(const CycloneCaller& caller, ByteView response) {
   ros2::CdrWriter header;
   header.number(caller.client);
   header.number(caller.number);
-  Bytes reply = header.bytes();
+  Bytes reply = std::move(header).bytes();
   append(reply, response.subspan(std::min(response.size(), ros2::kCdrHeaderBytes)));
   return reply;
 }

@@ -50,5 +50,16 @@ TEST_F(ImageSearch, NamesBothPlacesIfThereIsNone) {
   }
 }
 
+TEST_F(ImageSearch, SaysThatASimulatedRobotTakesNone) {
+  try {
+    found("sim");
+    ADD_FAILURE() << "a simulated robot got an image";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "the robot runs on a 'sim', for which there is no firmware to load: it loads into a Teensy "
+                 "4.0 and a Pico");
+  }
+}
+
 }  // namespace
 }  // namespace astro::commands
