@@ -24,7 +24,17 @@ constexpr std::array<FactorSet, 6> kSets{{{"E", false, false, true},
                                           {"GE", false, true, true},
                                           {"SG", true, true, false},
                                           {"SGE", true, true, true}}};
-constexpr FactorSet kNone{"", false, false, false};
+/// What is known of factors without which other drives are followed as well: a nominal wheel is known to half a per cent, a
+/// wheelbase by a ruler to one, and a real robot's wheels of the same make had an E_d of 0.9989 at a wheelbase of 0.25 m.
+constexpr double kKeptScale = 0.005, kKeptTurn = 0.01, kKeptBend_radpm = 0.004;
+
+/// Only the scanner's place and its clock are not known.
+Prior as_loaded(const Unknowns& start, bool late) {
+  Prior prior = wide_prior(start, late);
+  for (const Unknown factor : {kScale, kTurn, kBend, kArcs}) prior.deviation(factor) = 0;
+  prior.mean = start;
+  return prior;
+}
 
 /// The matched stretches outside of [first, last).
 std::vector<LinearStretch> without(std::span<const LinearStretch> linear, std::size_t first,
@@ -44,7 +54,7 @@ double length_of(std::span<const Stretch> stretches) {
 
 /// Errors of the held-out pieces of all folds with the factors of a set that were found without each.
 std::vector<PieceError> held_out(std::span<const Stretch> stretches, std::span<const LinearStretch> linear,
-                                 const Unknowns& at, const Unknowns& start, const Freedom& free,
+                                 const Unknowns& at, const Prior& prior,
                                  const calibration::WheelFactors& loaded, double piece_m) {
   std::vector<PieceError> all;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
@@ -52,7 +62,7 @@ std::vector<PieceError> held_out(std::span<const Stretch> stretches, std::span<c
     const std::vector<LinearStretch> others = without(linear, first, last);
     if (others.size() < 3) return {};
     const std::vector<PieceError> errors = piece_errors(stretches.subspan(first, last - first), piece_m,
-                                                        fit(others, at, start, free).unknowns, loaded);
+                                                        fit(others, at, prior).unknowns, loaded);
     for (PieceError error : errors) {
       error.first += first;
       all.push_back(error);
@@ -122,14 +132,15 @@ void compare(std::span<const PieceError> before, std::span<const PieceError> aft
 
 }  // namespace
 
-Freedom FactorSet::freedom(bool late) const {
-  Freedom free{};
-  free[kScale] = scale;
-  free[kTurn] = free[kArcs] = turn;
-  free[kBend] = bend;
-  free[kLeverX] = free[kLeverY] = free[kLeverYaw] = true;
-  free[kLate] = late;
-  return free;
+Prior FactorSet::prior(const Unknowns& start, bool late) const {
+  Prior prior = wide_prior(start, late);
+  if (!scale) prior.deviation(kScale) = kKeptScale;
+  if (!turn) {
+    prior.deviation(kTurn) = kKeptTurn;
+    prior.mean(kArcs) = start(kArcs);
+  }
+  if (!bend) prior.deviation(kBend) = kKeptBend_radpm;
+  return prior;
 }
 
 bool FactorChoice::better() const {
@@ -148,7 +159,7 @@ FactorChoice choose_factors(std::span<const Stretch> stretches, std::span<const 
   none.piece_m = piece_m;
   if (linear.size() < kFewestStretches) return none;
   const std::vector<PieceError> before =
-      held_out(stretches, linear, at, start, kNone.freedom(late), loaded, piece_m);
+      held_out(stretches, linear, at, as_loaded(start, late), loaded, piece_m);
   const std::vector<std::size_t> groups = groups_of(before, stretches, 2 * piece_m);
   none.pieces = std::set<std::size_t>(groups.begin(), groups.end()).size();
   if (!can_be_judged(none)) return none;
@@ -156,7 +167,7 @@ FactorChoice choose_factors(std::span<const Stretch> stretches, std::span<const 
   for (std::size_t i = 0; i < kSets.size(); ++i) {
     choices[i].set = kSets[i];
     choices[i].piece_m = piece_m;
-    compare(before, held_out(stretches, linear, at, start, kSets[i].freedom(late), loaded, piece_m), groups,
+    compare(before, held_out(stretches, linear, at, kSets[i].prior(start, late), loaded, piece_m), groups,
             choices[i]);
   }
   const FactorChoice& best =

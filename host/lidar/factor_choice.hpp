@@ -12,16 +12,18 @@
 /// The stretches are cut into five folds that each lie together. Each set of factors is estimated from four of them; on the fifth,
 /// pieces of a few metres are dead-reckoned and compared with the scans, beside the loaded factors. Both have the scanner's place
 /// estimated alike, which belongs to the scans and not to odometry. Of the sets whose gain is within a standard error of the best
-/// one's, the smallest is taken: a factor that helps little on pieces it has not seen does harm on others.
+/// one's, the smallest is taken: a factor that helps little on pieces it has not seen does harm on others. What is not in the set does
+/// not stay as loaded either: it has a narrower prior, so that the drives move it as far as they show it.
 namespace astro::lidar {
 
-/// A set of factors: scale S, turns G (b / S and e), bend E (E_d). What is not in it stays as loaded.
+/// A set of factors: scale S, turns G (b / S and e), bend E (E_d).
 struct FactorSet {
   std::string_view name;
   bool scale, turn, bend;
 
-  /// With the scanner's place and, if it is asked for, its clock.
-  Freedom freedom(bool late) const;
+  /// The factors in the set have their wide prior, and so have the scanner's place and, if stamps may be late, its clock. The others
+  /// are near the loaded ones, as near as those of a robot that follows other drives as well without a change.
+  Prior prior(const Unknowns& start, bool late) const;
 };
 
 struct FactorChoice {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -57,38 +56,73 @@ bool elsewhere(const Unknowns& found, const Unknowns& start) {
   return off(kLeverX) > 0.15 || off(kLeverY) > 0.15 || off(kLeverYaw) > 0.1 || off(kLate) > 0.02;
 }
 
-/// By how much later the scans' stamps are in each drive than in all of them together; 0 unless that is clear. Another computer's clock
-/// may have been set between two drives, or runs at another rate.
-std::vector<double> clock_jumps(const Matched& matched, const IteratedFit& all) {
+struct Lateness {
+  double later_s = 0, se_s = 0;  // than by the offset of all drives
+};
+
+/// Of some stretches of one drive. Their factors may be a bit others than those of all drives: on another floor the wheelbase is, and
+/// its residuals are not the clock's.
+Lateness lateness_of(std::span<const LinearStretch> stretches, const IteratedFit& all) {
+  Prior prior = FactorSet{"", false, false, false}.prior(all.fit.unknowns, true);
+  for (const Unknown place : {kLeverX, kLeverY, kLeverYaw}) prior.deviation(place) = 0;
+  const StretchFit own = fit(stretches, all.at, prior);
+  return {own.unknowns(kLate) - all.fit.unknowns(kLate), std::sqrt(own.covariance(kLate, kLate))};
+}
+
+/// The scans' stamps of one drive against those of all: in the middle of the drive, and by how much more with each second. 0 unless
+/// that is clear: another computer's clock may have been set between two drives, or runs at another rate.
+struct ClockError {
+  double later_s = 0, rate = 0;
+};
+
+/// drifts: it is clear already that the rates differ, so that what is left of that is found, too.
+ClockError clock_error(std::span<const LinearStretch> of_drive, std::span<const Stretch> stretches,
+                       const IteratedFit& all, bool drifts) {
   constexpr std::size_t kFewest = 10;
-  constexpr double kClearly = 4, kLeast_s = 0.003;
-  Freedom stamps_alone{};
-  stamps_alone[kLate] = true;
-  std::vector<double> jumps;
+  constexpr double kClearly = 4, kLeast_s = 0.003, kSettled_s = 0.001;
+  ClockError error;
+  if (of_drive.size() < kFewest) return error;
+  const Lateness whole = lateness_of(of_drive, all);
+  if (std::abs(whole.later_s) > std::max(kLeast_s, kClearly * whole.se_s)) error.later_s = whole.later_s;
+  if (of_drive.size() < 2 * kFewest) return error;
+  const std::size_t half = of_drive.size() / 2;
+  const Lateness first = lateness_of(of_drive.first(half), all),
+                 second = lateness_of(of_drive.subspan(half), all);
+  const double more_s = second.later_s - first.later_s,
+               apart_s =
+                   (stretches[of_drive.back().index].to_s - stretches[of_drive.front().index].from_s) / 2;
+  const double clearly_s = std::max(2 * kLeast_s, kClearly * std::hypot(first.se_s, second.se_s));
+  if (std::abs(more_s) > (drifts ? kSettled_s : clearly_s)) error.rate = more_s / apart_s;
+  return error;
+}
+
+/// Of each drive. `so_far`: what was found of it before.
+std::vector<ClockError> clock_errors(const Matched& matched, const IteratedFit& all,
+                                     std::span<const ClockError> so_far) {
+  std::vector<ClockError> errors;
   auto begin = all.stretches.begin();
   for (const std::size_t end_index : matched.ends) {
     const auto end =
         std::ranges::lower_bound(begin, all.stretches.end(), end_index, {}, &LinearStretch::index);
-    const std::span<const LinearStretch> of_drive(begin, end);
+    errors.push_back(clock_error({begin, end}, matched.stretches, all, so_far[errors.size()].rate != 0));
     begin = end;
-    jumps.push_back(0);
-    if (of_drive.size() < kFewest) continue;
-    const StretchFit own = fit(of_drive, all.at, all.fit.unknowns, stamps_alone);
-    const double later_s = own.unknowns(kLate) - all.fit.unknowns(kLate);
-    if (std::abs(later_s) > std::max(kLeast_s, kClearly * std::sqrt(own.covariance(kLate, kLate))))
-      jumps.back() = later_s;
   }
-  return jumps;
+  return errors;
 }
 
-/// Puts the scans of each drive, whose own offset is in `later_s`, onto one clock. False if there is nothing to do.
-bool put_on_one_clock(std::span<ScannedDrive> drives, std::span<const double> jumps,
-                      std::vector<double>& later_s) {
-  for (std::size_t i = 0; i < jumps.size(); ++i) {
-    drives[i].origin_ns += std::llround(1e9 * jumps[i]);
-    later_s[i] += jumps[i];
+/// Puts the wheels of each drive onto the clock of its scans, but for the offset that all drives share. `so_far`: of each drive, to
+/// which `errors` are added. False if there is nothing to do.
+bool put_on_one_clock(std::span<ScannedDrive> drives, std::span<const ClockError> errors,
+                      std::vector<ClockError>& so_far) {
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    std::vector<calibration::WheelSample>& wheels = drives[i].wheels;
+    const double middle_s = (wheels.front().time_s + wheels.back().time_s) / 2;
+    for (calibration::WheelSample& sample : wheels)
+      sample.time_s += errors[i].later_s + errors[i].rate * (sample.time_s - middle_s);
+    so_far[i].later_s += errors[i].later_s;
+    so_far[i].rate += errors[i].rate;
   }
-  return std::ranges::any_of(jumps, [](double jump_s) { return jump_s != 0; });
+  return std::ranges::any_of(errors, [](const ClockError& one) { return one.later_s != 0 || one.rate != 0; });
 }
 
 /// By the derivatives of c_R, c_L, b and e.
@@ -127,7 +161,16 @@ std::vector<StretchResidual> residuals_of(std::span<const Stretch> stretches, co
   return residuals;
 }
 
-Freedom all_free(bool late) { return FactorSet{"", true, true, true}.freedom(late); }
+void state_clocks(std::span<const ClockError> clocks, double late_s, ScanCalibration& found) {
+  const auto [earliest, latest] = std::ranges::minmax(clocks, {}, &ClockError::later_s);
+  found.late_spread_s = latest.later_s - earliest.later_s;
+  double sum_s = 0;
+  for (const ClockError& clock : clocks) {
+    sum_s += clock.later_s;
+    if (std::abs(clock.rate) > std::abs(found.clock_rate)) found.clock_rate = clock.rate;
+  }
+  found.late_s = late_s + sum_s / static_cast<double>(clocks.size());
+}
 
 /// What is held out follows the order of the drives, so that they are taken in one of their own, whatever order they come in.
 std::vector<ScannedDrive> in_order(std::span<const ScannedDrive> drives) {
@@ -148,7 +191,7 @@ std::vector<ScannedDrive> in_order(std::span<const ScannedDrive> drives) {
 ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> given,
                                    const calibration::WheelFactors& loaded, bool mirrored) {
   std::vector<ScannedDrive> drives = in_order(given);
-  std::vector<double> later_s(drives.size());  // the stamps of each drive
+  std::vector<ClockError> clocks(drives.size());
   constexpr int kMostTimes = 4;
   const bool late = std::all_of(drives.begin(), drives.end(),
                                 [](const ScannedDrive& drive) { return drive.times_measured; });
@@ -162,11 +205,10 @@ ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> given,
   for (int time = 0; time < kMostTimes; ++time) {
     matched = match_all(drives, loaded, start, mirrored);
     require_matches(matched.counts);
-    all = iterated_fit(matched.stretches, start, all_free(late), loaded);
+    all = iterated_fit(matched.stretches, wide_prior(start, late), loaded);
     if (time + 1 == kMostTimes) break;
-    const bool jumped =
-        late && drives.size() > 1 && put_on_one_clock(drives, clock_jumps(matched, all), later_s);
-    if (!jumped && !elsewhere(all.fit.unknowns, start)) break;
+    const bool other_clocks = late && put_on_one_clock(drives, clock_errors(matched, all, clocks), clocks);
+    if (!other_clocks && !elsewhere(all.fit.unknowns, start)) break;
     for (const Unknown place : {kLeverX, kLeverY, kLeverYaw, kLate}) start(place) = all.fit.unknowns(place);
   }
   found.choice = choose_factors(matched.stretches, all.stretches, all.at, start, late, loaded);
@@ -174,21 +216,16 @@ ScanCalibration calibrate_by_scans(std::span<const ScannedDrive> given,
   found.counts = matched.counts;
   found.unknowns = all.fit.unknowns;
   found.unknowns_covariance = all.fit.covariance;
-  const Freedom chosen = can_be_judged(found.choice) ? found.choice.set.freedom(late) : all_free(late);
-  const Unknowns used = fit(all.stretches, all.at, start, chosen).unknowns;
-  found.factors = factors_of(used, loaded);
-  // Factors that stay as loaded are off by what the drives say of them, and by what the drives leave open.
-  const Unknowns kept = all.fit.unknowns - used;
-  found.covariance = factor_covariance(used, all.fit.covariance + kept * kept.transpose(), loaded);
-  found.scanner = lever_of(used);
-  const auto error = [&](Unknown k) { return std::sqrt(all.fit.covariance(k, k)); };
+  const StretchFit used =
+      can_be_judged(found.choice) ? fit(all.stretches, all.at, found.choice.set.prior(start, late)) : all.fit;
+  found.factors = factors_of(used.unknowns, loaded);
+  found.covariance = factor_covariance(used.unknowns, used.covariance, loaded);
+  found.scanner = lever_of(used.unknowns);
+  const auto error = [&](Unknown k) { return std::sqrt(used.covariance(k, k)); };
   found.scanner_se = {error(kLeverX), error(kLeverY), error(kLeverYaw)};
-  const auto [earliest, latest] = std::ranges::minmax(later_s);
-  found.late_spread_s = latest - earliest;
-  found.late_s = used(kLate) +
-                 std::accumulate(later_s.begin(), later_s.end(), 0.0) / static_cast<double>(later_s.size());
+  state_clocks(clocks, used.unknowns(kLate), found);
   found.late_se_s = late ? error(kLate) : std::numeric_limits<double>::quiet_NaN();
-  found.residuals = residuals_of(matched.stretches, used, loaded);
+  found.residuals = residuals_of(matched.stretches, used.unknowns, loaded);
   found.remarks = remarks_on(matched.long_matches, mounting, found);
   return found;
 }

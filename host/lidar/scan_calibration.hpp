@@ -26,6 +26,7 @@ enum class ScanRemark {
   gaps,            // the robot drove on without scans: how often
   outside,         // scans made before or after the wheels were recorded: how many of how many
   clocks_differ,  // the offset between the clocks of wheels and scans is another in other drives: by milliseconds
+  clock_drifts,  // these clocks run at different rates within a drive: by parts in a million
   matcher_biased,  // matches over some metres differ from the chain of the matches in between: degrees for each metre
 };
 
@@ -38,13 +39,15 @@ struct StretchResidual {
 
 struct ScanCalibration {
   calibration::WheelFactors loaded, factors;
-  /// Of c_R, c_L, b, e: what these drives leave open, and how far factors that stayed as loaded are from what the drives say.
+  /// Of c_R, c_L, b, e: what these drives and what is known before leave open.
   Eigen::Matrix4d covariance;
   calibration::LeverArm scanner, scanner_se;
   double late_s = 0, late_se_s = 0;  // the scans' stamps are late; the error is NaN where times mean nothing
   /// By how much the offset of the scans' clock differs between drives, of which each then has its own; 0: one will do.
   double late_spread_s = 0;
-  Unknowns unknowns;  // all of them free: what the drives show, whether it is used or not
+  /// By how much the rate of the scans' clock differs from that of the wheels', in the drive where most; 0: it does not show.
+  double clock_rate = 0;
+  Unknowns unknowns;  // each with its wide prior: what the drives show, whether it is used or not
   Information unknowns_covariance;
   FactorChoice choice;
   bool judged =

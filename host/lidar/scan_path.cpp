@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "host/lidar/driven_surface.hpp"
-#include "host/lidar/factor_choice.hpp"
 #include "host/lidar/keyframes.hpp"
 #include "host/lidar/mounting_search.hpp"
 #include "host/lidar/pair_match.hpp"
@@ -27,8 +26,7 @@ Unknowns placed_scanner(const ScannedDrive& drive, const WheelFactors& loaded) {
   start(kLeverYaw) = require_mounting({&drive, 1}, loaded, false).yaw_rad;
   const Keyframes keyframes = keyframes_of(drive, loaded, start, false);
   if (keyframes.counts.matched < kFewestMatches) return start;
-  const Freedom all = FactorSet{"", true, true, true}.freedom(drive.times_measured);
-  return iterated_fit(keyframes.stretches, start, all, loaded).fit.unknowns;
+  return iterated_fit(keyframes.stretches, wide_prior(start, drive.times_measured), loaded).fit.unknowns;
 }
 
 class Follower {

@@ -17,7 +17,8 @@ namespace {
 /// What the drives say of an unknown is no more than what was thought before them.
 bool not_shown(const ScanCalibration& found, Unknown unknown) {
   constexpr double kOfPrior = 0.5;
-  return std::sqrt(found.unknowns_covariance(unknown, unknown)) > kOfPrior * prior_deviations()(unknown);
+  return std::sqrt(found.unknowns_covariance(unknown, unknown)) >
+         kOfPrior * wide_prior(found.unknowns, true).deviation(unknown);
 }
 
 void add_missing_motions(const MountingFound& mounting, const ScanCalibration& found,
@@ -96,6 +97,18 @@ void add_clocks(double late_spread_s, std::vector<Remark>& remarks) {
        {by}});
 }
 
+void add_drift(double clock_rate, std::vector<Remark>& remarks) {
+  if (clock_rate == 0) return;
+  const std::string by = fmt::format("{:.0f}", 1e6 * std::abs(clock_rate));
+  remarks.push_back(
+      {fmt::format(
+           "the clocks of wheels and scans run at rates that differ by {} parts in a million, which is "
+           "taken into account",
+           by),
+       ScanRemark::clock_drifts,
+       {by}});
+}
+
 /// Matches over some metres against the chain of those in between: a bias of the matcher would look like one of the wheels. It is
 /// told if it is clear, and larger than what the drives leave open of the bend.
 void add_bias(std::span<const LongMatch> long_matches, double bend_error_radpm,
@@ -126,6 +139,7 @@ std::vector<Remark> remarks_on(std::span<const LongMatch> long_matches, const Mo
   add_missing_motions(mounting, found, remarks);
   add_counts(found.counts, remarks);
   add_clocks(found.late_spread_s, remarks);
+  add_drift(found.clock_rate, remarks);
   add_bias(long_matches, std::sqrt(found.unknowns_covariance(kBend, kBend)), remarks);
   return remarks;
 }

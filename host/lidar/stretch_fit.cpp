@@ -66,9 +66,10 @@ void add(const LinearStretch& one, const Eigen::Vector3d& residual, const Eigen:
   gradient.noalias() += one.jacobian.transpose() * (weight * residual);
 }
 
-void hold(const Freedom& free, Information& information, Unknowns& gradient) {
+/// Leaves the unknowns at their means that have no deviation.
+void hold(const Unknowns& deviation, Information& information, Unknowns& gradient) {
   for (int k = 0; k < kUnknowns; ++k) {
-    if (free[static_cast<std::size_t>(k)]) continue;
+    if (deviation(k) > 0) continue;
     information.row(k).setZero();
     information.col(k).setZero();
     information(k, k) = 1;
@@ -78,10 +79,11 @@ void hold(const Freedom& free, Information& information, Unknowns& gradient) {
 
 }  // namespace
 
-Unknowns prior_deviations() {
-  Unknowns deviations;
-  deviations << 0.02, 0.05, 0.02, calibration::kSpreadOfE, 0.3, 0.15, 0.2, 0.1;
-  return deviations;
+Prior wide_prior(const Unknowns& start, bool late) {
+  Prior prior{start, {}};
+  prior.mean(kArcs) = 0;
+  prior.deviation << 0.02, 0.05, 0.02, calibration::kSpreadOfE, 0.3, 0.15, 0.2, late ? 0.1 : 0;
+  return prior;
 }
 
 std::vector<LinearStretch> linearised(std::span<const Stretch> stretches, const Unknowns& at,
@@ -108,45 +110,43 @@ std::vector<LinearStretch> linearised(std::span<const Stretch> stretches, const 
   return all;
 }
 
-StretchFit fit(std::span<const LinearStretch> stretches, const Unknowns& at, const Unknowns& start,
-               const Freedom& free) {
+StretchFit fit(std::span<const LinearStretch> stretches, const Unknowns& at, const Prior& prior) {
   constexpr int kSteps = 15;
   const Eigen::Matrix3d scatter = scatter_of(stretches);
   std::vector<Eigen::Matrix3d> expected;
   for (const LinearStretch& one : stretches) expected.push_back(one.covariance + scatter);
-  const Information prior = prior_deviations().cwiseProduct(prior_deviations()).cwiseInverse().asDiagonal();
-  Unknowns expected_before = start;
-  expected_before(kArcs) = 0;
-  StretchFit found{start, Information::Zero()};
+  const Unknowns prior_weight =
+      (prior.deviation.array() > 0).select(prior.deviation.cwiseAbs2().cwiseInverse(), 0);
+  StretchFit found{prior.mean, Information::Zero()};
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::DiagonalMatrix<double, 3> by =
         spreads_of(stretches, expected, found.unknowns - at).cwiseInverse().asDiagonal();
-    Information information = prior;
-    Unknowns gradient = prior * (expected_before - found.unknowns);
+    Information information = prior_weight.asDiagonal();
+    Unknowns gradient = prior_weight.cwiseProduct(prior.mean - found.unknowns);
     for (std::size_t i = 0; i < stretches.size(); ++i)
       add(stretches[i], residual_at(stretches[i], found.unknowns - at), by * expected[i].inverse() * by,
           information, gradient);
-    hold(free, information, gradient);
+    hold(prior.deviation, information, gradient);
     found.covariance = information.inverse();
     const Unknowns change = found.covariance * gradient;
     found.unknowns += change;
     if (change.cwiseAbs().maxCoeff() < 1e-9) break;
   }
   for (int k = 0; k < kUnknowns; ++k)
-    if (!free[static_cast<std::size_t>(k)]) found.covariance(k, k) = 0;
+    if (!(prior.deviation(k) > 0)) found.covariance(k, k) = 0;
   return found;
 }
 
-IteratedFit iterated_fit(std::span<const Stretch> stretches, const Unknowns& start, const Freedom& free,
+IteratedFit iterated_fit(std::span<const Stretch> stretches, const Prior& prior,
                          const calibration::WheelFactors& loaded) {
   constexpr int kMostTimes = 6;
   IteratedFit all;
-  all.fit.unknowns = start;
+  all.fit.unknowns = prior.mean;
   for (int time = 0; time < kMostTimes; ++time) {
     // Only here, so that it is where the stretches were linearised even if the last pass changes the unknowns.
     all.at = all.fit.unknowns;
     all.stretches = linearised(stretches, all.at, loaded);
-    all.fit = fit(all.stretches, all.at, start, free);
+    all.fit = fit(all.stretches, all.at, prior);
     if ((all.fit.unknowns - all.at).cwiseAbs().maxCoeff() < 1e-5) break;
   }
   return all;

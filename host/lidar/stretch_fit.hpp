@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,12 +10,14 @@
 /// The unknowns by robust least squares over stretches whose motion both wheels and scans tell.
 namespace astro::lidar {
 
-/// Which unknowns are estimated; the others keep their start values.
-using Freedom = std::array<bool, kUnknowns>;
+/// What is known before the drives: means and standard deviations. An unknown with the deviation 0 keeps its mean.
+struct Prior {
+  Unknowns mean, deviation;
+};
 
-/// How much is known before anything was driven: standard deviations about the start values, and of e about 0. A robot whose wheels
-/// are off by more still is calibrated, because the drives outweigh this.
-Unknowns prior_deviations();
+/// Of a robot of which nobody knows more than that it is one, about start values; of e about 0. A robot whose wheels are off by more
+/// still is calibrated, because the drives outweigh this. late: whether the scans' stamps may be.
+Prior wide_prior(const Unknowns& start, bool late);
 
 /// A stretch near some unknowns: what the scans say minus what the wheels say, and how the latter changes with the unknowns.
 struct LinearStretch {
@@ -32,23 +33,20 @@ std::vector<LinearStretch> linearised(std::span<const Stretch> stretches, const 
 
 struct StretchFit {
   Unknowns unknowns;
-  Information covariance;  // of those that are free: with the spread that the stretches really have; others 0
+  Information covariance;  // with the spread that the stretches really have; 0 of those that keep their mean
 };
 
 /// Each stretch is weighted by the inverse of its match's covariance plus the wheels' scatter, which is that of the residuals
-/// themselves; outliers (slip, people) count little. `at`: where the stretches were linearised. `start`: the values of unknowns
-/// that are not free, about which the others have their prior (prior_deviations). Precondition: three stretches at least.
-StretchFit fit(std::span<const LinearStretch> stretches, const Unknowns& at, const Unknowns& start,
-               const Freedom& free);
+/// themselves; outliers (slip, people) count little. `at`: where the stretches were linearised. Precondition: three stretches at least.
+StretchFit fit(std::span<const LinearStretch> stretches, const Unknowns& at, const Prior& prior);
 
-/// All unknowns that are free, with stretches that are linearised anew until nothing changes. Returns where they were linearised
-/// last as well.
+/// With stretches that are linearised anew until nothing changes. Returns where they were linearised last as well.
 struct IteratedFit {
   StretchFit fit;
   std::vector<LinearStretch> stretches;
   Unknowns at;
 };
-IteratedFit iterated_fit(std::span<const Stretch> stretches, const Unknowns& start, const Freedom& free,
+IteratedFit iterated_fit(std::span<const Stretch> stretches, const Prior& prior,
                          const calibration::WheelFactors& loaded);
 
 }  // namespace astro::lidar

@@ -77,7 +77,7 @@ Eigen::Matrix3d bound(const ScannedDrive& drive, const Unknowns& truth) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const LinearStretch& one : stretches) scatter += one.residual * one.residual.transpose();
   scatter /= static_cast<double>(stretches.size());
-  const Unknowns priors = prior_deviations();
+  const Unknowns priors = wide_prior(truth, true).deviation;
   Information information = priors.cwiseProduct(priors).cwiseInverse().asDiagonal();
   const Eigen::Matrix3d weight = scatter.inverse();
   for (const LinearStretch& one : stretches) information += one.jacobian.transpose() * weight * one.jacobian;
@@ -127,7 +127,7 @@ struct Bars {
 };
 
 void robots(int count, Bars& bars) {
-  // Of all that the drives show; and of what is used, where factors that do not clearly help stay as loaded.
+  // Of all that the drives show; and of what is used, where factors that do not clearly help have a narrower prior.
   Figures squares = Figures::Zero(), used = Figures::Zero(), bounds = Figures::Zero();
   double chi_square = 0, yaw_square = 0, late_square = 0;
   int refused = 0, better = 0;

@@ -74,8 +74,12 @@ std::string scanner_sentence(const ScanCalibration& found) {
 
 std::string changed_sentence(const ScanCalibration& found) {
   if (found.choice.set.name.empty()) return "";
-  return fmt::format("These factors help on pieces that were not used to find them, and were changed: {}.",
-                     factors_in(found.choice.set.name));
+  return fmt::format(
+      "These factors are from the drives alone, which helps on pieces that were not used to find them: {}.{}",
+      factors_in(found.choice.set.name),
+      found.choice.set.name == "SGE"
+          ? ""
+          : " The others are moved as far as the drives show them better than the loaded ones are known.");
 }
 
 }  // namespace astro::experiment

@@ -17,7 +17,7 @@ std::string verdict_sentence(const lidar::ScanCalibration& found);
 std::string matches_sentence(const lidar::ScanCalibration& found);
 /// Where the scanner sits, which way it looks, and by how much its stamps are late.
 std::string scanner_sentence(const lidar::ScanCalibration& found);
-/// Which factors were changed, because they help on pieces that were not used to find them; "" if none was.
+/// Which factors are from the drives alone, because that helps on pieces that were not used to find them; "" if none is.
 std::string changed_sentence(const lidar::ScanCalibration& found);
 
 }  // namespace astro::experiment

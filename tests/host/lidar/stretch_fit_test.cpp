@@ -11,8 +11,6 @@
 namespace astro::lidar {
 namespace {
 
-constexpr Freedom kAllFree{true, true, true, true, true, true, true, true};
-
 /// Stretches of arcs, of which the scans say what another robot would have driven, and `scatter` besides.
 std::vector<Stretch> arcs(std::size_t count, double scatter, std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -32,7 +30,7 @@ std::vector<Stretch> arcs(std::size_t count, double scatter, std::uint64_t seed)
 TEST(StretchFit, SaysWhereItsStretchesWereLinearisedEvenIfItDoesNotConverge) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const std::vector<Stretch> stretches = arcs(5, 3, seed);
-    const IteratedFit all = iterated_fit(stretches, nothing_wrong(kLoaded), kAllFree, kLoaded);
+    const IteratedFit all = iterated_fit(stretches, wide_prior(nothing_wrong(kLoaded), true), kLoaded);
     const std::vector<LinearStretch> there = linearised(stretches, all.at, kLoaded);
     for (std::size_t i = 0; i < there.size(); ++i)
       EXPECT_EQ(there[i].residual, all.stretches[i].residual) << seed;

@@ -152,6 +152,17 @@ TEST(RunFile, SlipsThatTheGyroNoticedComeBackAndAreToldByTimeAndTurn) {
                                                               "5.7", "0.1", "-14.3", "0.8", "187.7", "2.1"));
 }
 
+TEST(RunFile, OfManySlipsTheFirstFiveAreToldAndHowManyMore) {
+  recording::Run run = random_run(8, 50, 0);
+  run.slips.assign(5, {700'001, 0.1});
+  const Remark five = slip_remark(run, "square cw 1").value();
+  EXPECT_EQ(five.sentence.find("more"), std::string::npos);
+  run.slips.assign(10'000, {700'001, 0.1});
+  const Remark many = slip_remark(run, "square cw 1").value();
+  EXPECT_EQ(many.values, five.values);
+  EXPECT_EQ(many.sentence, five.sentence + ", and 9995 more");
+}
+
 /// A scan whose numbers are floats, as a message holds them.
 lidar::Scan scan_at(std::int64_t time_ns, std::size_t beams) {
   lidar::Scan scan{time_ns, 0.5, -0.25, 0.0625, 0.125, 12, {}};
