@@ -376,3 +376,46 @@ test('EnterBootloader by USB reaches the boot loader', () => {
   assert.ok(!all.usb.attached);
   expectClean(all);
 });
+
+// What other people read in the data sheet: no NAK, toggles or addresses, but registers, buffers and interrupts of their own.
+test('the engine\'s own controller is served as well as the rig\'s', () => {
+  const pico = new Pico({ seed: 1, image: readUf2(kImage) }), { chip } = pico, engine = chip.usbCtrl;
+  delete engine.DPRAMUpdated; // the rig has switched it off
+  chip.peripherals[0x50110] = engine;
+  chip.usb.writeMemory = (offset, value) => { chip.usbDPRAMView.setUint32(offset, value, true); engine.DPRAMUpdated(offset, value); };
+  const came = new Map();
+  let enabled = false;
+  engine.onUSBEnabled = () => { enabled = true; };
+  engine.onEndpointWrite = (endpoint, bytes) => came.set(endpoint, [...(came.get(endpoint) ?? []), Buffer.from(bytes)]);
+  const until = (what) => { for (let us = 0; us < 1e6 && !what(); us += 20) pico.runFor(20e3); assert.ok(what()); };
+  const take = (endpoint) => { until(() => came.get(endpoint)?.length); return came.get(endpoint).shift(); };
+  const ask = (...bytes) => { engine.sendSetupPacket(Uint8Array.from(bytes)); };
+  const read = (length, ...bytes) => {
+    ask(...bytes, length & 0xff, length >> 8);
+    const all = [];
+    for (let packet = take(0); ; packet = take(0)) {
+      all.push(packet);
+      if (packet.length < 64 || all.length * 64 >= length) break;
+    }
+    engine.endpointReadDone(0, new Uint8Array(0));
+    pico.runFor(100e3);
+    return Buffer.concat(all);
+  };
+  const write = (...bytes) => { ask(...bytes, 0, 0); assert.equal(take(0).length, 0); pico.runFor(100e3); };
+  until(() => enabled);
+  engine.resetDevice();
+  pico.runFor(20e6);
+  assert.equal(read(18, 0x80, request.descriptor, 0, descriptor.device, 0, 0).readUInt16LE(8), 0x2e8a);
+  write(0, request.setAddress, 5, 0, 0, 0);
+  assert.equal(engine.readUint32(0), 5);
+  assert.equal(read(75, 0x80, request.descriptor, 0, descriptor.configuration, 0, 0).length, 75);
+  write(0, request.setConfiguration, 1, 0, 0, 0);
+  write(0x21, request.setLineState, 3, 0, 0, 0);
+  const wire = {
+    feed: (bytes) => engine.endpointReadDone(3, Uint8Array.from(bytes)),
+    takeReceived: () => (came.get(4) ?? []).splice(0).flatMap((packet) => [...packet]),
+  };
+  const host = new Host(pico, undefined, wire);
+  assert.equal(host.hello().board, 'rp2040');
+  assert.equal(host.bad, 0);
+});
