@@ -43,6 +43,7 @@ class UsbSerial {
   static constexpr Pipe kOut{kOutEndpoint, false}, kIn{kInEndpoint, true};
   static constexpr Pipe pipe_of(std::uint8_t endpoint) { return {endpoint & 0x0FU, (endpoint & 0x80) != 0}; }
 
+  static void interrupt() { active_->handle(); }
   void handle();
   void reset();
   void handle_setup(const Setup& setup);
@@ -75,7 +76,7 @@ void UsbSerial<Chip>::start(const std::array<std::uint8_t, 16>& unique_id) {
   active_ = this;
   serial_number_ = serial_number(unique_id);
   control_.start(Chip::kIdentity, {serial_number_.data(), serial_number_.size()});
-  Chip::install([] { active_->handle(); });
+  Chip::install(interrupt);
   Chip::power_down();
   stay_away();
 }

@@ -100,7 +100,7 @@ test('no recursion, and the worst case of the stack fits what is reserved for it
   assert.equal(symbols.get('constructors_start'), symbols.get('constructors_end'), 'there are no constructors to call');
   const kStored = 32 + 4; // by the core when an interrupt comes, and to align it
   const parts = [deepest(functions, 'start_from_flash')];
-  for (const handler of [/rp2040.*timer_interrupt/, /rp2040.*Uart9interrupt/, /UsbSerial.*_FUNEv$/]) {
+  for (const handler of [/rp2040.*timer_interrupt/, /rp2040.*Uart9interrupt/, /UsbSerial.*9interruptEv$/]) {
     const name = [...functions.keys()].find((one) => handler.test(one));
     assert.ok(name, `${handler}`);
     parts.push(deepest(functions, name));
