@@ -8,9 +8,10 @@ set(ASTRO_LAYERS
   "hal/interface                : common"
   "hal/mock                     : common hal/interface"
   "hal/sim                      : common hal/interface"
-  "hal/rp2040                   : common hal/interface"
+  "hal/rp2040                   : common hal/interface hal/usb"
   "hal/i2c                      : hal/interface"
-  "hal/teensy40                 : common hal/i2c hal/interface"
+  "hal/teensy40                 : common hal/i2c hal/interface hal/usb"
+  "hal/usb                      : common"
   "firmware/main                : common hal firmware"
   "firmware/app                 : common hal/interface"
   "host/base                    :"
@@ -86,7 +87,7 @@ set(ASTRO_LAYERS
 )
 
 # Headers that would bring float, heap or the operating system into code that runs on the robot.
-set(ASTRO_ON_ROBOT common hal/interface hal/rp2040 hal/teensy40 firmware)
+set(ASTRO_ON_ROBOT common hal/interface hal/rp2040 hal/teensy40 hal/usb firmware)
 set(ASTRO_ON_ROBOT_FORBIDDEN
   cmath math.h complex random iostream fstream sstream cstdio stdio.h string vector map set list deque
   unordered_map unordered_set memory functional thread mutex future chrono filesystem new stdexcept)

@@ -8,6 +8,7 @@ Board::Board() {
   encoders_.start();
   battery_.start();
   uart_.start();
+  usb_.start(system_.unique_id());
   watchdog_timer::start();
 }
 

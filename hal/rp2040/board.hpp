@@ -43,8 +43,9 @@ class Board {
   Battery battery_;
   Flash flash_;
   Uart uart_;
-  System system_;
-  Ports ports_{uart_};
+  UsbSerial usb_;
+  System system_{usb_};
+  Ports ports_{usb_, uart_};
 };
 
 static_assert(hal::Board<Board>, "this port no longer satisfies hal/interface");

@@ -5,21 +5,29 @@
 #include <span>
 
 #include "hal/rp2040/uart.hpp"
+#include "hal/rp2040/usb/usb_serial.hpp"
 
 namespace astro::rp2040 {
 
-/// The serial port on GP0 and GP1.
+/// Port 0 is USB, port 1 the serial port on GP0 and GP1.
 class Ports {
  public:
-  static constexpr int kPorts = 1;
+  static constexpr int kPorts = 2;
 
-  explicit Ports(Uart& uart) : uart_(uart) {}
+  Ports(UsbSerial& usb, Uart& uart) : usb_(usb), uart_(uart) {}
 
-  std::size_t read(int, std::span<std::uint8_t> into) noexcept { return uart_.read(into); }
-  std::size_t write(int, std::span<const std::uint8_t> bytes) noexcept { return uart_.write(bytes); }
-  std::size_t room(int) noexcept { return uart_.room(); }
+  std::size_t read(int port, std::span<std::uint8_t> into) noexcept {
+    return port == kUsb ? usb_.read(into) : uart_.read(into);
+  }
+  std::size_t write(int port, std::span<const std::uint8_t> bytes) noexcept {
+    return port == kUsb ? usb_.write(bytes) : uart_.write(bytes);
+  }
+  std::size_t room(int port) noexcept { return port == kUsb ? usb_.room() : uart_.room(); }
 
  private:
+  static constexpr int kUsb = 0;
+
+  UsbSerial& usb_;
   Uart& uart_;
 };
 

@@ -2,11 +2,18 @@
 
 #include "hal/rp2040/arithmetic/reset_cause.hpp"
 #include "hal/rp2040/boot_rom.hpp"
+#include "hal/rp2040/clock.hpp"
 #include "hal/rp2040/core/cpu.hpp"
 #include "hal/rp2040/flash.hpp"
 #include "hal/rp2040/motors.hpp"
 
 namespace astro::rp2040 {
+namespace {
+
+constexpr std::uint64_t kGone_us =
+    5'000;  // so that the host notices the robot's departure before the loader comes
+
+}  // namespace
 
 void System::start() {
   watchdog_timer::stop();
@@ -31,6 +38,11 @@ bool System::enter_bootloader() noexcept {
   Motors::coast();
   WATCHDOG[watchdog::SCRATCH0].write(marker::kReboot);  // for the start after the loader
   watchdog_timer::stop();                               // nobody feeds it in the loader
+  usb_.detach();
+  const Clock clock;
+  const std::uint64_t left_us = clock.now_us();
+  while (clock.now_us() - left_us < kGone_us) {
+  }
   loader(0, 0);
   return true;
 }

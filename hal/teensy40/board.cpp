@@ -9,8 +9,7 @@ Board::Board() {
   battery_.start();
   i2c_.start();
   uart_.start();
-  serial_number_ = serial_number(system_.unique_id());
-  usb_.start({serial_number_.data(), serial_number_.size()});
+  usb_.start(system_.unique_id());
   watchdog::start();
 }
 

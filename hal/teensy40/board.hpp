@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "hal/i2c/gyro.hpp"
 #include "hal/interface/board.hpp"
 #include "hal/teensy40/battery.hpp"
@@ -64,7 +62,6 @@ class Board {
   UsbSerial usb_;
   System system_{usb_, uart_};
   Ports ports_{usb_, uart_};
-  std::array<char, 32> serial_number_{};  // of USB, which reads it when a host asks
 };
 
 static_assert(hal::Board<Board> && hal::HasGyro<Board>, "this port no longer satisfies hal/interface");

@@ -1,15 +1,15 @@
 // SETUP packets and data for endpoint 0 of the robot's USB stack.
 #include <cstring>
 
-#include "hal/teensy40/usb/control.hpp"
+#include "hal/usb/control.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace astro::fuzz {
 
 void take(ByteView input) {
-  using namespace teensy40::usb_device;  // NOLINT(google-build-using-namespace): this function is all USB
+  using namespace usb_device;  // NOLINT(google-build-using-namespace): this function is all USB
   Control control;
-  control.start("0123456789abcdef0123456789abcdef");
+  control.start({0x16C0, 0x0483, 0x0279, Speed::high}, "0123456789abcdef0123456789abcdef");
   while (input.size() >= 9) {
     const auto half = [&](std::size_t at) {
       return static_cast<std::uint16_t>(input[at] | static_cast<unsigned>(input[at + 1]) << 8U);

@@ -2,11 +2,26 @@
 
 #include "hal/teensy40/core/cpu.hpp"
 #include "hal/teensy40/registers/registers.hpp"
+#include "hal/teensy40/usb/transfers.hpp"
 
-namespace astro::teensy40::usb_device::controller {
+namespace astro::teensy40 {
+
+using usb_device::Events;
+using usb_device::Pipe;
+using usb_device::Setup;
+using usb_device::Speed;
+
 namespace {
 
+using usb_device::kControlPacket;
+using usb_device::kInEndpoint;
+using usb_device::kNotifyEndpoint;
+using usb_device::kNotifyPacket;
+using usb_device::kOutEndpoint;
+
 constexpr std::uint32_t kReads = 100'000;
+/// Pipes of endpoints 0 to 4.
+constexpr std::size_t kHeads = 10;
 constexpr Pipe kControlOut{0, false}, kControlIn{0, true};
 
 /// The controller takes the table's address without its lower 11 bits.
@@ -82,7 +97,7 @@ constexpr std::uint32_t kUnused = usb::ENDPTCTRL1_TXT(kBulk) | usb::ENDPTCTRL1_R
 
 }  // namespace
 
-void start() {
+void UsbController::start() {
   start_pll();
   start_supply();
   open_gate(CCM[ccm::CCGR6], ccm::CCGR6_CG0);
@@ -98,17 +113,17 @@ void start() {
   USB1[usb::USBCMD].write(usb::USBCMD_RS(1));  // and no wait before an interrupt
 }
 
-void detach() {
+void UsbController::detach() {
   USB1[usb::USBINTR].write(0);
   USB1[usb::USBCMD].write(0);
 }
 
-void power_down() {
+void UsbController::power_down() {
   open_gate(CCM[ccm::CCGR6], ccm::CCGR6_CG0);
   detach();
 }
 
-Events take_events() {
+Events UsbController::take_events() {
   const std::uint32_t status = USB1[usb::USBSTS].read();
   USB1[usb::USBSTS].write(status);
   const bool suspended = USB1[usb::PORTSC1].get(usb::PORTSC1_SUSP) != 0;
@@ -118,7 +133,7 @@ Events take_events() {
           .transfers = usb::USBSTS_UI.of(status) != 0};
 }
 
-bool clean_up_after_reset() {
+bool UsbController::clean_up_after_reset() {
   USB1[usb::ENDPTSETUPSTAT].write(USB1[usb::ENDPTSETUPSTAT].read());
   USB1[usb::ENDPTCOMPLETE].write(USB1[usb::ENDPTCOMPLETE].read());
   for (std::uint32_t reads = kReads; reads != 0 && USB1[usb::ENDPTPRIME].read() != 0;) --reads;
@@ -130,15 +145,17 @@ bool clean_up_after_reset() {
   return in_time;
 }
 
-Speed speed() { return USB1[usb::PORTSC1].get(usb::PORTSC1_HSP) != 0 ? Speed::high : Speed::full; }
+Speed UsbController::speed() {
+  return USB1[usb::PORTSC1].get(usb::PORTSC1_HSP) != 0 ? Speed::high : Speed::full;
+}
 
-void set_address(std::uint8_t address) {
+void UsbController::set_address(std::uint8_t address) {
   USB1[usb::DEVICEADDR].write(usb::DEVICEADDR_USBADR(address) | usb::DEVICEADDR_USBADRA(1));
 }
 
-void open_endpoints(Speed speed) {
+void UsbController::open_endpoints(Speed speed) {
   drop(kDataPipes);
-  const std::uint32_t bulk = bulk_packet(speed);
+  const std::uint32_t bulk = usb_device::bulk_packet(speed);
   heads[Pipe{kNotifyEndpoint, true}.index()].capabilities = head_capabilities(kNotifyPacket, kNoEmptyPacket);
   heads[Pipe{kOutEndpoint, false}.index()].capabilities = head_capabilities(bulk, kNoEmptyPacket);
   heads[Pipe{kInEndpoint, true}.index()].capabilities = head_capabilities(bulk, 0);
@@ -147,28 +164,30 @@ void open_endpoints(Speed speed) {
   endpoint_control(kInEndpoint).write(send_of(kBulk));
 }
 
-void close_endpoints() {
+void UsbController::close_endpoints() {
   drop(kDataPipes);
   for (const std::uint32_t endpoint : {kNotifyEndpoint, kOutEndpoint, kInEndpoint})
     endpoint_control(endpoint).write(kUnused);
 }
 
-void stall(Pipe pipe) {
+void UsbController::stall(Pipe pipe) {
   endpoint_control(pipe.endpoint).modify(0, pipe.in ? usb::ENDPTCTRL1_TXS(1) : usb::ENDPTCTRL1_RXS(1));
 }
 
-void unstall(Pipe pipe) {
+void UsbController::unstall(Pipe pipe) {
   const std::uint32_t stalled = pipe.in ? usb::ENDPTCTRL1_TXS(1) : usb::ENDPTCTRL1_RXS(1);
   const std::uint32_t toggle = pipe.in ? usb::ENDPTCTRL1_TXR(1) : usb::ENDPTCTRL1_RXR(1);
   endpoint_control(pipe.endpoint).modify(stalled, toggle);
 }
 
 /// The next SETUP packet ends it by itself.
-void stall_control() { USB1[usb::ENDPTCTRL0].modify(0, usb::ENDPTCTRL0_RXS(1) | usb::ENDPTCTRL0_TXS(1)); }
+void UsbController::stall_control() {
+  USB1[usb::ENDPTCTRL0].modify(0, usb::ENDPTCTRL0_RXS(1) | usb::ENDPTCTRL0_TXS(1));
+}
 
-bool setup_waits() { return (USB1[usb::ENDPTSETUPSTAT].read() & 1U) != 0; }
+bool UsbController::setup_waits() { return (USB1[usb::ENDPTSETUPSTAT].read() & 1U) != 0; }
 
-bool take_setup(Setup& setup) {
+bool UsbController::take_setup(Setup& setup) {
   constexpr std::uint32_t kEndpoint0 = 1;
   if (!setup_waits()) return false;
   USB1[usb::ENDPTSETUPSTAT].write(kEndpoint0);
@@ -176,7 +195,7 @@ bool take_setup(Setup& setup) {
   for (std::uint32_t reads = kReads; reads != 0; --reads) {
     // A SETUP packet that arrives while the last one is copied clears the tripwire.
     USB1[usb::USBCMD].modify(0, usb::USBCMD_SUTW(1));
-    setup = make_setup(words[0], words[1]);
+    setup = usb_device::make_setup(words[0], words[1]);
     if (USB1[usb::USBCMD].get(usb::USBCMD_SUTW) != 0) break;
   }
   USB1[usb::USBCMD].modify(usb::USBCMD_SUTW(1), 0);
@@ -185,7 +204,7 @@ bool take_setup(Setup& setup) {
   return true;
 }
 
-void begin(Pipe pipe, std::span<std::uint8_t> bytes) {
+void UsbController::begin(Pipe pipe, std::span<std::uint8_t> bytes) {
   const std::uint32_t index = pipe.index();
   Transfer& transfer = transfers[index];
   QueueHead& head = heads[index];
@@ -204,17 +223,17 @@ void begin(Pipe pipe, std::span<std::uint8_t> bytes) {
   for (std::uint32_t reads = kReads; reads != 0 && (USB1[usb::ENDPTPRIME].read() & pipe.bit()) != 0;) --reads;
 }
 
-void cancel(Pipe pipe) { drop(pipe.bit()); }
+void UsbController::cancel(Pipe pipe) { drop(pipe.bit()); }
 
-std::uint32_t take_completed() {
+std::uint32_t UsbController::take_completed() {
   const std::uint32_t pipes = USB1[usb::ENDPTCOMPLETE].read();
   USB1[usb::ENDPTCOMPLETE].write(pipes);
   return pipes;
 }
 
-std::size_t moved(Pipe pipe) {
+std::size_t UsbController::moved(Pipe pipe) {
   const volatile Transfer& transfer = transfers[pipe.index()];
   return sizes[pipe.index()] - (transfer.token >> 16 & 0x7FFF);
 }
 
-}  // namespace astro::teensy40::usb_device::controller
+}  // namespace astro::teensy40

@@ -6,7 +6,7 @@
 /// and descriptors of transfers. All of it is in DTCM, which is not cached.
 ///
 /// Source  the EHCI-like device controller of the i.MX RT family.
-namespace astro::teensy40::usb_device {
+namespace astro::teensy40 {
 
 inline constexpr std::uint32_t kEnd = 1;  // in place of an address: nothing follows
 inline constexpr std::uint32_t kActive = 1U << 7, kHalted = 1U << 6;
@@ -34,13 +34,4 @@ constexpr std::uint32_t head_capabilities(std::uint32_t packet, std::uint32_t fl
   return packet << 16 | flags;
 }
 
-/// An endpoint in one direction: `in` is towards the host.
-struct Pipe {
-  std::uint32_t endpoint;
-  bool in;
-
-  constexpr std::uint32_t bit() const { return 1U << (endpoint + (in ? 16 : 0)); }
-  constexpr std::uint32_t index() const { return 2 * endpoint + (in ? 1 : 0); }
-};
-
-}  // namespace astro::teensy40::usb_device
+}  // namespace astro::teensy40

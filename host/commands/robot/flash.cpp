@@ -196,7 +196,7 @@ void add_flash(console::Command app) {
   add_connection(command, options->connection);
   console::examples(command, {"astrolabe flash", "astrolabe flash astrolabe-teensy40.hex --port /dev/ttyACM0",
                               "astrolabe flash --button",
-                              "astrolabe flash build/rp2040/bin/astrolabe-rp2040.uf2 --port /dev/ttyUSB0"});
+                              "astrolabe flash build/rp2040/bin/astrolabe-rp2040.uf2 --port /dev/ttyACM0"});
   command.callback([options] { run(*options); });
 }
 

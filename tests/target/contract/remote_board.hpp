@@ -13,7 +13,8 @@ namespace astro::target {
 
 /// The board by remote: satisfies hal::Board, and each call is made on the processor. `Puppet` runs the puppet image
 /// (tests/target/images/puppet_program.hpp):
-///   kName, kFirstPort   the board's name; its port that counts as the first here
+///   kName               the board's name
+///   kPorts, port_of(n)  how many of its ports are tested; the board's number of the n-th of them
 ///   kHasGyro            the board has a gyro
 ///   call(call, a, b)    makes a call and returns its answer
 ///   mailbox()           the bytes that go with a call and come back
@@ -59,7 +60,7 @@ class RemoteBoard {
     }
   };
   struct Ports {
-    static constexpr int kPorts = 1;
+    static constexpr int kPorts = Puppet::kPorts;
     Puppet& puppet;
     std::size_t read(int port, std::span<std::uint8_t> into) noexcept {
       const std::size_t count =
@@ -74,7 +75,7 @@ class RemoteBoard {
     std::size_t room(int port) noexcept { return puppet.call(Call::room, number(port)); }
 
    private:
-    static std::uint32_t number(int port) { return static_cast<std::uint32_t>(port + Puppet::kFirstPort); }
+    static std::uint32_t number(int port) { return static_cast<std::uint32_t>(Puppet::port_of(port)); }
   };
   struct Flash {
     static constexpr std::uint32_t kSectors = 6, kSectorBytes = 4096, kProgramBytes = 8;

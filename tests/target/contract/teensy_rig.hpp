@@ -15,7 +15,8 @@ class Puppet {
  public:
   static constexpr std::string_view kName = "teensy40";
   // The serial port; USB needs a host that enumerates it (tests/target/usb).
-  static constexpr int kFirstPort = 1;
+  static constexpr int kPorts = 1;
+  static constexpr int port_of(int) { return 1; }
   static constexpr bool kHasGyro = true;
 
   explicit Puppet(std::uint64_t seed) : teensy_(ASTRO_IMAGE_DIR "/puppet.hex", with(seed)) {

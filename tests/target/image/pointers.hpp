@@ -17,7 +17,8 @@ inline const Pointers kPointers{
     {
         {"astro::teensy40::(anonymous namespace)::pit_interrupt()", teensy40::urgency::kTick},
         {"astro::teensy40::Uart::interrupt()", teensy40::urgency::kUart},
-        {"astro::teensy40::UsbSerial::interrupt()", teensy40::urgency::kUsb},
+        {"astro::usb_device::UsbSerial<astro::teensy40::UsbController>::interrupt()",
+         teensy40::urgency::kUsb},
     },
     {"reset", "fault_handler"}};
 

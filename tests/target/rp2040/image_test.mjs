@@ -100,14 +100,14 @@ test('no recursion, and the worst case of the stack fits what is reserved for it
   assert.equal(symbols.get('constructors_start'), symbols.get('constructors_end'), 'there are no constructors to call');
   const kStored = 32 + 4; // by the core when an interrupt comes, and to align it
   const parts = [deepest(functions, 'start_from_flash')];
-  for (const handler of [/rp2040.*timer_interrupt/, /rp2040.*Uart9interrupt/]) {
+  for (const handler of [/rp2040.*timer_interrupt/, /rp2040.*Uart9interrupt/, /UsbSerial.*9interruptEv$/]) {
     const name = [...functions.keys()].find((one) => handler.test(one));
     assert.ok(name, `${handler}`);
     parts.push(deepest(functions, name));
   }
   const worst = parts.reduce((sum, { bytes }) => sum + bytes, 0) + (parts.length - 1) * kStored;
   const reserved = symbols.get('stack_top') - symbols.get('stack_bottom');
-  print(`stack: main program ${parts[0].bytes}, tick ${parts[1].bytes}, serial port ${parts[2].bytes}: worst case ${worst} of ${reserved} bytes`);
+  print(`stack: main program ${parts[0].bytes}, tick ${parts[1].bytes}, serial port ${parts[2].bytes}, USB ${parts[3].bytes}: worst case ${worst} of ${reserved} bytes`);
   print(`deepest: ${parts[0].path.join(' -> ').slice(0, 400)}`);
   assert.ok(worst <= reserved);
 });

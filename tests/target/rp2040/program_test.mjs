@@ -11,11 +11,12 @@ import { images, kImage } from './bench.mjs';
 const astrolabe = process.env.ASTRO_PROGRAM;
 const here = dirname(fileURLToPath(import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'astrolabe-pico-'));
-const drive = join(folder, 'RPI-RP2');
+const drive = join(folder, 'RPI-RP2'), usbPort = join(folder, 'usb');
 let server, port;
 
-function run(...words) {
-  const { status, stdout, stderr } = spawnSync(astrolabe, [...words, '--port', port], {
+const run = (...words) => runAt(port, ...words);
+function runAt(where, ...words) {
+  const { status, stdout, stderr } = spawnSync(astrolabe, [...words, '--port', where], {
     encoding: 'utf8', timeout: 120e3, env: { ...process.env, ASTROLABE_PICO_DRIVE: drive },
   });
   return { status, text: stdout + stderr };
@@ -23,7 +24,7 @@ function run(...words) {
 
 before(async () => {
   assert.ok(astrolabe, 'ASTRO_PROGRAM must name the program astrolabe');
-  server = spawn('node', [join(here, 'rig/serve.mjs'), kImage, '--drive', drive], { stdio: ['ignore', 'pipe', 'inherit'] });
+  server = spawn('node', [join(here, 'rig/serve.mjs'), kImage, '--drive', drive, '--usb-pty', usbPort], { stdio: ['ignore', 'pipe', 'inherit'] });
   port = await new Promise((resolve, reject) => {
     server.stdout.on('data', (text) => { const found = /tcp:[0-9.]+:[0-9]+/.exec(text); if (found) resolve(found[0]); });
     server.on('exit', () => reject(new Error('the emulated Pico has ended')));
@@ -55,6 +56,17 @@ test('flash copies the image to the drive that appears, and the parameters survi
   assert.match(flash.text, /for the board 'rp2040'/);
   assert.match(flash.text, /all \d+ parameters kept/);
   assert.match(run('info').text, /name +PICO/);
+});
+
+test('the same robot is at its USB port, where flash loads it as well', () => {
+  const info = runAt(usbPort, 'info');
+  assert.equal(info.status, 0, info.text);
+  assert.match(info.text, /board +rp2040/);
+  const line = runAt(usbPort, 'drive', 'line', '0.1');
+  assert.match(line.text, /x +0\.(09|10)\d\d m/);
+  const flash = runAt(usbPort, 'flash', kImage);
+  assert.equal(flash.status, 0, flash.text);
+  assert.match(flash.text, /all \d+ parameters kept/);
 });
 
 test('flash says how a Pico without firmware is loaded', () => {

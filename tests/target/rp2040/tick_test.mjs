@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { bench, expectNoComplaints, print, symbols } from './bench.mjs';
-import { id, kWatchdogFault } from './rig/host.mjs';
+import { Host, id, kWatchdogFault } from './rig/host.mjs';
+import { UsbHost } from './rig/usb_host.mjs';
 
 const kTick = 16, kCycles_us = 125;
 const kSpin = 1, kArc = 2;
@@ -77,6 +78,34 @@ test('a tick takes at most 70 us of its millisecond, whatever the robot does', (
     // What holds interrupts: the main loop while it uses what it shares with the tick, and the queues of the ports.
     assert.ok(profile.worst.late_ns <= 15e3, `${what}: ${profile.worst.late_ns} ns late`);
   }
+});
+
+test('the tick is not late while USB carries all that it can and the cable is pulled', () => {
+  const { pico, robot } = bench();
+  const usb = new UsbHost(pico), host = new Host(pico, (ms) => robot.advance(ms), usb);
+  usb.connect();
+  host.hello();
+  const fields = Buffer.alloc(6);
+  fields.writeUInt16LE(1, 0);
+  fields.writeUInt32LE(1, 2);
+  host.request(id.telemetry, fields);
+  const profile = new TickProfile(pico.chip);
+  let came = 0;
+  for (let ms = 0; ms < 1000; ++ms) {
+    if (usb.toSend.length === 0) usb.feed(Buffer.alloc(1024)); // ends of frames without content
+    host.advance(1);
+    came += usb.takeReceived().length;
+  }
+  usb.reads = false;
+  host.advance(20);
+  usb.closePort(); // takes a packet back
+  usb.unplug();
+  print(`${came} bytes a second to the host: ${profile}`);
+  assert.ok(came > 20e3);
+  assert.ok(profile.worst_us <= 70);
+  assert.ok(profile.worst.late_ns <= 15e3, `${profile.worst.late_ns} ns late`);
+  assert.equal(new Host(pico, (ms) => robot.advance(ms)).status().overruns, 0);
+  expectNoComplaints(pico);
 });
 
 test('the tick is not late while the flash erases and programs', () => {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <set>
-#include <string>
 
 namespace astro::teensy40 {
 namespace {
@@ -21,15 +20,6 @@ TEST(Identity, EveryFuseBitTellsRobotsApart) {
     ids.insert(unique_id(fuses));
   }
   EXPECT_EQ(ids.size(), 129U);
-}
-
-TEST(Identity, SerialNumberIsTheIdInHexadecimal) {
-  const auto text = serial_number(unique_id({0x89AB'CDEF, 0x0123'4567, 0, 0xFFFF'FFFF}));
-  EXPECT_EQ(std::string(text.begin(), text.end()),
-            "EFCDAB89"
-            "67452301"
-            "00000000"
-            "FFFFFFFF");
 }
 
 }  // namespace

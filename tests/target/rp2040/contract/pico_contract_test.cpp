@@ -9,12 +9,16 @@
 namespace astro::contract {
 namespace {
 
+template <bool kUsb>
 class PicoRig {
+  using Puppet = target::PicoPuppet<kUsb>;
+  using Board = target::PicoBoard<kUsb>;
+
  public:
   /// Nothing that the firmware did was forbidden by the chip.
   ~PicoRig() { EXPECT_EQ(puppet_.say("complaints")[0], "0"); }
 
-  target::PicoBoard& board() { return board_; }
+  Board& board() { return board_; }
   void pass_ms(int ms) { puppet_.say("pass " + std::to_string(ms)); }
   void set_counts(hal::EncoderCounts counts) { puppet_.say("counts " + both(counts)); }
   void turn(hal::EncoderCounts by) { puppet_.say("turn " + both(by)); }
@@ -30,17 +34,17 @@ class PicoRig {
             on_grid(std::stod(states[1]), board_.motors().asked.right)};
   }
   void set_driver_fault(bool fault) { puppet_.say(fault ? "fault 1" : "fault 0"); }
-  bool host_send(int, std::span<const std::uint8_t> bytes) {
-    puppet_.say("send " + target::PicoPuppet::hex(bytes));
+  bool host_send(int port, std::span<const std::uint8_t> bytes) {
+    puppet_.say("send " + std::to_string(Puppet::port_of(port)) + ' ' + Puppet::hex(bytes));
     return true;
   }
-  std::vector<std::uint8_t> host_receive(int) {
+  std::vector<std::uint8_t> host_receive(int port) {
     pass_ms(30);  // 2 KB at 1 Mbit/s
-    return target::PicoPuppet::bytes_of(puppet_.say("receive")[0]);
+    return Puppet::bytes_of(puppet_.say("receive " + std::to_string(Puppet::port_of(port)))[0]);
   }
   std::array<std::uint8_t, 16> other_id() {
-    target::PicoPuppet other(2);
-    return target::PicoBoard(other).system().unique_id();
+    target::PicoPuppet<false> other(2);
+    return target::PicoBoard<false>(other).system().unique_id();
   }
   std::array<std::uint8_t, 16> restarted_id() {
     puppet_.say("restart");
@@ -57,12 +61,13 @@ class PicoRig {
     return static_cast<std::int16_t>(std::lround(duty * 32767));
   }
 
-  target::PicoPuppet puppet_{1};
-  target::PicoBoard board_{puppet_};
+  Puppet puppet_{1};
+  Board board_{puppet_};
 };
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Rp2040, BoardContract, PicoRig);
-INSTANTIATE_TYPED_TEST_SUITE_P(Rp2040, IoContract, PicoRig);
+INSTANTIATE_TYPED_TEST_SUITE_P(Rp2040, BoardContract, PicoRig<false>);
+INSTANTIATE_TYPED_TEST_SUITE_P(Rp2040, IoContract, PicoRig<false>);
+INSTANTIATE_TYPED_TEST_SUITE_P(Rp2040Usb, IoContract, PicoRig<true>);
 
 }  // namespace
 }  // namespace astro::contract

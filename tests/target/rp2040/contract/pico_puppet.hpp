@@ -20,10 +20,15 @@ namespace astro::target {
 
 /// The puppet image on an emulated Pico in a process of its own (tests/target/rp2040/puppet_server.mjs), a line for each
 /// question and each answer.
+///
+/// With `kUsb` its first port is USB, at a host that has opened it, and its second one the serial port. Without, the serial port
+/// is the only one, because the host's enumeration takes half a second of the chip's time.
+template <bool kUsb>
 class PicoPuppet {
  public:
   static constexpr std::string_view kName = "rp2040";
-  static constexpr int kFirstPort = 0;
+  static constexpr int kPorts = kUsb ? 2 : 1;
+  static constexpr int port_of(int port) { return kUsb ? port : 1; }
   static constexpr bool kHasGyro = false;
 
   explicit PicoPuppet(int seed) {
@@ -44,6 +49,7 @@ class PicoPuppet {
     ask_ = fdopen(to[1], "w");
     answer_ = fdopen(from[0], "r");
     say("start");
+    if (kUsb) say("connect");
   }
   ~PicoPuppet() {
     fclose(ask_);  // the end of its input ends it
@@ -108,7 +114,8 @@ class PicoPuppet {
   Mailbox mailbox_{};
 };
 
-using PicoBoard = RemoteBoard<PicoPuppet>;
-static_assert(hal::Board<PicoBoard>);
+template <bool kUsb>
+using PicoBoard = RemoteBoard<PicoPuppet<kUsb>>;
+static_assert(hal::Board<PicoBoard<true>>);
 
 }  // namespace astro::target

@@ -5,14 +5,16 @@ import { BootRom } from './boot_rom.mjs';
 import { FlashController } from './flash_controller.mjs';
 import { Words } from './registers.mjs';
 import { Uart } from './uart.mjs';
+import { UsbController } from './usb_controller.mjs';
 
+const kUsbMemory = 0x50100000, kUsbMemoryEnd = 0x50101000;
 const kFlash = 0x10000000, kFlashEnd = 0x14000000, kRam = 0x20000000, kRamEnd = 0x20042000;
 const kHardFault = 3;
 
 // Bits of RESETS by the upper part of the address.
 const kInReset = new Map([
   [0x4004c, 0], [0x40014, 5], [0x40018, 6], [0x4001c, 8], [0x40020, 9], [0x50200, 10], [0x50300, 11], [0x40028, 12],
-  [0x4002c, 13], [0x40050, 14], [0x40004, 18], [0x40054, 21], [0x40034, 22], [0x40038, 23], [0x50110, 24],
+  [0x4002c, 13], [0x40050, 14], [0x40004, 18], [0x40054, 21], [0x40034, 22], [0x40038, 23], [0x50100, 24], [0x50110, 24],
 ]);
 const kOutOfReset = (1 << 6) | (1 << 9) | (1 << 18); // what the boot ROM needs
 
@@ -34,6 +36,7 @@ export class Chip extends RP2040 {
     this.logger = { ...quiet, warn: (name, text) => this.heard(name, text), error: (name, text) => this.heard(name, text) };
     this.controller = new FlashController(this);
     this.uart0 = new Uart(this);
+    this.usb = new UsbController(this);
     this.watchdog = this.peripherals[0x40058];
     this.watchdog.reason = reason;
     this.watchdog.tickEnable = false;
@@ -45,12 +48,13 @@ export class Chip extends RP2040 {
       0x18000: this.controller.ssi,
       0x40018: this.controller.pins,
       0x40034: this.uart0.words,
+      0x50110: this.usb.words,
       0x40010: this.psm,
       0x40064: new Words(this, 'CHIP_RESET', { initial: { 8: chipReset } }),
       0x4000c: new Words(this, 'RESETS', {
         initial: { 0: this.resetWord },
         reads: { 8: () => ~this.resetWord & 0x01ffffff },
-        writes: { 0: (value) => { this.resetWord = value; } },
+        writes: { 0: (value) => { this.resetWord = value; if (!this.usb.awake) this.usb.reset(); } },
       }),
     });
     this.stepPio();
@@ -98,6 +102,7 @@ export class Chip extends RP2040 {
     if (address & 3) this.faulted = true;
     if (address >= kRam && address < kRamEnd - 3) return this.sramView.getUint32(address - kRam, true);
     if (address >= kFlash && address < kFlashEnd) return this.flashWord(address);
+    if (address >= kUsbMemory && address < kUsbMemoryEnd) return this.usb.awake ? this.usb.readMemory(address - kUsbMemory) : 0;
     return super.readUint32(address);
   }
   readUint16(address) {
@@ -117,6 +122,7 @@ export class Chip extends RP2040 {
     if (address & 3) this.faulted = true;
     if (address >= kRam && address < kRamEnd - 3) return this.sramView.setUint32(address - kRam, value, true);
     if (address < 0x4000 || (address >= kFlash && address < kFlashEnd)) { this.faulted = true; return; }
+    if (address >= kUsbMemory && address < kUsbMemoryEnd) { if (this.usb.awake) this.usb.writeMemory(address - kUsbMemory, value); return; }
     super.writeUint32(address, value);
   }
   writeUint16(address, value) {

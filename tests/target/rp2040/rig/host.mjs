@@ -48,9 +48,9 @@ export class Refused extends Error {}
 export class NoAnswer extends Error {}
 
 export class Host {
-  // `advance(ms)` lets the robot's time pass; false ends all waiting.
-  constructor(pico, advance = (ms) => pico.runFor(ms * 1e6)) {
-    this.pico = pico;
+  // `advance(ms)` lets the robot's time pass; false ends all waiting. `wire` is the port: the serial one, or a UsbHost.
+  constructor(pico, advance = (ms) => pico.runFor(ms * 1e6), wire = pico.serial) {
+    this.wire = wire;
     this.advance = advance;
     this.number = 0;
     this.waiting = [];
@@ -62,13 +62,13 @@ export class Host {
     const body = Buffer.concat([Buffer.from([message, number & 0xff, number >>> 8]), fields]);
     const sum = Buffer.alloc(4);
     sum.writeUInt32LE(crc32(body));
-    this.pico.chip.uart0.feed([0, ...stuff([...body, ...sum]), 0]);
+    this.wire.feed([0, ...stuff([...body, ...sum]), 0]);
   }
 
   // The bodies that have arrived.
   receive() {
     const bodies = [];
-    for (const byte of this.pico.sent.splice(0)) {
+    for (const byte of this.wire.takeReceived()) {
       if (byte !== 0) { this.waiting.push(byte); continue; }
       const frame = Buffer.from(unstuff(this.waiting.splice(0)));
       if (frame.length === 0) continue;

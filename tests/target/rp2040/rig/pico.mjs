@@ -17,6 +17,7 @@ export class Pico {
     this.before_ns = 0; // the time of the chips before this one
     this.complaints = [];
     this.sent = []; // by the serial port
+    this.serial = { feed: (bytes) => this.chip.uart0.feed(bytes), takeReceived: () => this.sent.splice(0) };
     this.onStart = () => {};
     this.powerOn();
   }

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <string_view>
 
-/// The USB descriptors of the robot: a serial port of the class for communication devices (CDC-ACM), at high
-/// and at full speed.
+/// The USB descriptors of the robot: a serial port of the class for communication devices (CDC-ACM), at full and, where
+/// the board has it, at high speed.
 ///
 /// Source  USB 2.0, chapter 9; CDC 1.2 and its PSTN subclass; the descriptor of associated interfaces (IAD).
-namespace astro::teensy40::usb_device {
+namespace astro::usb_device {
 
 inline constexpr std::uint8_t kNotifyEndpoint = 2, kOutEndpoint = 3, kInEndpoint = 4;
 inline constexpr std::uint16_t kControlPacket = 64, kNotifyPacket = 16;
@@ -28,26 +28,35 @@ enum class DescriptorType : std::uint8_t {
 constexpr std::uint8_t low(std::uint16_t word) { return static_cast<std::uint8_t>(word); }
 constexpr std::uint8_t high(std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); }
 
-inline constexpr std::array<std::uint8_t, 18> kDevice{
-    18,
-    1,  // length, device
-    0x00,
-    0x02,  // USB 2.0
-    0xEF,
-    0x02,
-    0x01,            // class: several functions, described by IAD
-    kControlPacket,  // of endpoint 0
-    0xC0,
-    0x16,
-    0x83,
-    0x04,  // 16C0:0483, a Teensy as a serial port
-    0x79,
-    0x02,  // a Teensy 4.0
-    1,
-    2,
-    3,  // strings: manufacturer, product, serial number
-    1,  // configurations
+/// What differs between devices.
+struct Identity {
+  std::uint16_t vendor = 0, product = 0;
+  std::uint16_t release = 0;    // of the device, binary-coded decimal
+  Speed fastest = Speed::full;  // a device without high speed has no descriptors about it (USB 2.0, 9.6.2)
 };
+
+constexpr std::array<std::uint8_t, 18> device(const Identity& identity) {
+  return {
+      18,
+      1,  // length, device
+      0x00,
+      0x02,  // USB 2.0
+      0xEF,
+      0x02,
+      0x01,            // class: several functions, described by IAD
+      kControlPacket,  // of endpoint 0
+      low(identity.vendor),
+      high(identity.vendor),
+      low(identity.product),
+      high(identity.product),
+      low(identity.release),
+      high(identity.release),
+      1,
+      2,
+      3,  // strings: manufacturer, product, serial number
+      1,  // configurations
+  };
+}
 
 /// The same at the other speed.
 inline constexpr std::array<std::uint8_t, 10> kQualifier{10,   6,    0x00,           0x02, 0xEF,
@@ -142,6 +151,17 @@ inline constexpr std::array<std::uint8_t, 4> kLanguages{4, 3, 0x09, 0x04};  // E
 inline constexpr std::string_view kManufacturer = "Astrolabe", kProduct = "Differential-drive robot";
 inline constexpr std::size_t kStringBytes = 2 + 2 * 32;  // the longest: a serial number of 32 digits
 
+/// The robot's unique id as USB shows it: 32 hexadecimal digits.
+constexpr std::array<char, 32> serial_number(const std::array<std::uint8_t, 16>& id) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::array<char, 32> text{};
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    text[2 * i] = kDigits[id[i] >> 4];
+    text[2 * i + 1] = kDigits[id[i] & 15];
+  }
+  return text;
+}
+
 /// A text as a string descriptor: UTF-16. Longer ones are cut.
 struct StringDescriptor {
   std::array<std::uint8_t, kStringBytes> bytes{};
@@ -158,4 +178,4 @@ struct StringDescriptor {
   }
 };
 
-}  // namespace astro::teensy40::usb_device
+}  // namespace astro::usb_device

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace astro::teensy40::usb_device {
+namespace astro::usb_device {
 
 /// The eight bytes of a SETUP packet (USB 2.0, table 9-2).
 struct Setup {
@@ -13,10 +13,11 @@ struct Setup {
   friend constexpr bool operator==(const Setup&, const Setup&) = default;
 };
 
+/// From the packet's words, the first byte lowest.
 constexpr Setup make_setup(std::uint32_t first, std::uint32_t second) {
   return {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(first >> 8),
           static_cast<std::uint16_t>(first >> 16), static_cast<std::uint16_t>(second),
           static_cast<std::uint16_t>(second >> 16)};
 }
 
-}  // namespace astro::teensy40::usb_device
+}  // namespace astro::usb_device

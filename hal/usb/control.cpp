@@ -1,11 +1,11 @@
-#include "hal/teensy40/usb/control.hpp"
+#include "hal/usb/control.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "common/base/little_endian.hpp"
 
-namespace astro::teensy40::usb_device {
+namespace astro::usb_device {
 namespace {
 
 namespace request {
@@ -41,12 +41,12 @@ std::uint8_t Control::bit(std::uint8_t endpoint) { return static_cast<std::uint8
 // A reply that is shorter than the host has asked for and ends with a full packet would need an empty packet
 // after it. No reply does, because the size of none is a multiple of a packet.
 constexpr bool ends_by_itself(std::size_t bytes) { return bytes % kControlPacket != 0; }
-static_assert(ends_by_itself(kDevice.size()) && ends_by_itself(kQualifier.size()) &&
+static_assert(ends_by_itself(device(Identity{}).size()) && ends_by_itself(kQualifier.size()) &&
               ends_by_itself(kConfigurationBytes) && ends_by_itself(kLanguages.size()) &&
               ends_by_itself(StringDescriptor(kManufacturer).size) &&
               ends_by_itself(StringDescriptor(kProduct).size) && ends_by_itself(kStringBytes));
 
-/// Sends from a buffer in data memory: constants are in code memory, which the controller cannot read.
+/// Sends from a buffer in data memory: constants may be in memory that the controller cannot read.
 Response Control::send(std::span<const std::uint8_t> all, const Setup& setup) {
   if (all.data() != reply_.data()) std::copy(all.begin(), all.end(), reply_.begin());
   const std::size_t size = std::min<std::size_t>(all.size(), setup.length);
@@ -176,13 +176,14 @@ Response Control::descriptor(const Setup& setup, Speed speed) {
   };
   switch (static_cast<DescriptorType>(high(setup.value))) {
     case DescriptorType::device:
-      return send(kDevice, setup);
+      return send(device(identity_), setup);
     case DescriptorType::qualifier:
-      return send(kQualifier, setup);
+      return identity_.fastest == Speed::high ? send(kQualifier, setup) : Response{};
     case DescriptorType::configuration:
       return number == 0 ? configure(speed, DescriptorType::configuration) : Response{};
     case DescriptorType::other_speed:
-      return number == 0 ? configure(other, DescriptorType::other_speed) : Response{};
+      return number == 0 && identity_.fastest == Speed::high ? configure(other, DescriptorType::other_speed)
+                                                             : Response{};
     case DescriptorType::string:
       if (number == 0) return send(kLanguages, setup);
       if (number == 1) return text(kManufacturer);
@@ -194,4 +195,4 @@ Response Control::descriptor(const Setup& setup, Speed speed) {
   }
 }
 
-}  // namespace astro::teensy40::usb_device
+}  // namespace astro::usb_device

@@ -5,10 +5,10 @@
 #include <span>
 #include <string_view>
 
-#include "hal/teensy40/usb/descriptors.hpp"
-#include "hal/teensy40/usb/setup.hpp"
+#include "hal/usb/descriptors.hpp"
+#include "hal/usb/setup.hpp"
 
-namespace astro::teensy40::usb_device {
+namespace astro::usb_device {
 
 /// What to do with endpoint 0 after a SETUP packet.
 struct Response {
@@ -43,7 +43,10 @@ class Control {
   };
 
   /// `serial_number` must outlive the object.
-  void start(std::string_view serial_number) { serial_number_ = serial_number; }
+  void start(const Identity& identity, std::string_view serial_number) {
+    identity_ = identity;
+    serial_number_ = serial_number;
+  }
   void on_reset();
   Response on_setup(const Setup& setup, Speed speed);
   /// The bytes of a `receive` have arrived.
@@ -70,6 +73,7 @@ class Control {
   static bool exists(std::uint8_t endpoint);
   static std::uint8_t bit(std::uint8_t endpoint);
 
+  Identity identity_;
   std::string_view serial_number_;
   std::uint8_t address_ = 0, configuration_ = 0, halted_ = 0;
   std::uint16_t line_state_ = 0;
@@ -78,4 +82,4 @@ class Control {
   std::array<std::uint8_t, kConfigurationBytes> reply_{};
 };
 
-}  // namespace astro::teensy40::usb_device
+}  // namespace astro::usb_device

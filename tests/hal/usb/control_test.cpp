@@ -1,11 +1,12 @@
-#include "hal/teensy40/usb/control.hpp"
+#include "hal/usb/control.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string_view>
 #include <vector>
 
-namespace astro::teensy40::usb_device {
+namespace astro::usb_device {
 namespace {
 
 using Kind = Response::Kind;
@@ -14,7 +15,8 @@ using Bytes = std::vector<std::uint8_t>;
 // tests/target/usb sees a host's side of this; here stands what only the controller sees.
 class Endpoint0 : public testing::Test {
  protected:
-  Endpoint0() { control_.start("0123456789abcdef0123456789abcdef"); }
+  static constexpr Identity kFast{0x16C0, 0x0483, 0x0279, Speed::high};
+  Endpoint0() { control_.start(kFast, kSerialNumber); }
   Response ask(const usb_device::Setup& setup) { return control_.on_setup(setup, Speed::high); }
   void configure() {
     ask({0x00, 9, 1, 0, 0});
@@ -22,6 +24,7 @@ class Endpoint0 : public testing::Test {
   }
   void set_line_state(std::uint16_t state) { ask({0x21, 0x22, state, 0, 0}); }
 
+  static constexpr std::string_view kSerialNumber = "0123456789abcdef0123456789abcdef";
   Control control_;
 };
 
@@ -74,6 +77,27 @@ TEST_F(Endpoint0, ABusResetForgetsAddressConfigurationHaltsAndThePort) {
   EXPECT_FALSE(changes.address || changes.endpoints || changes.closed || changes.halted != 0);
 }
 
+TEST_F(Endpoint0, ADeviceWithoutHighSpeedHasNoDescriptorsAboutIt) {
+  constexpr std::uint16_t kQualifier = 0x0600, kOtherSpeed = 0x0700;
+  for (const std::uint16_t descriptor : {kQualifier, kOtherSpeed})
+    EXPECT_EQ(ask({0x80, 6, descriptor, 0, 255}).kind, Kind::send);
+  control_.start({0x2E8A, 0x000A, 0x0100, Speed::full}, kSerialNumber);
+  for (const std::uint16_t descriptor : {kQualifier, kOtherSpeed})
+    EXPECT_EQ(ask({0x80, 6, descriptor, 0, 255}).kind, Kind::stall);
+}
+
+TEST_F(Endpoint0, TellsTheBoardsOwnNumbers) {
+  const Response device = ask({0x80, 6, 0x0100, 0, 18});
+  EXPECT_EQ(Bytes(device.data.begin() + 8, device.data.begin() + 14),
+            (Bytes{0xC0, 0x16, 0x83, 0x04, 0x79, 0x02}));
+}
+
+TEST(SerialNumber, ShowsEachByteOfTheIdInOrder) {
+  constexpr std::array<std::uint8_t, 16> kId{0x01, 0x23, 0x45, 0x67, 0x89, 0xAB, 0xCD, 0xEF};
+  const auto text = serial_number(kId);
+  EXPECT_EQ(std::string_view(text.data(), text.size()), "0123456789ABCDEF0000000000000000");
+}
+
 TEST_F(Endpoint0, NoRequestWhateverMakesItSendMoreThanItIsAskedFor) {
   constexpr unsigned kSeed = 20260101;
   SCOPED_TRACE(kSeed);
@@ -98,4 +122,4 @@ TEST_F(Endpoint0, NoRequestWhateverMakesItSendMoreThanItIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace astro::teensy40::usb_device
+}  // namespace astro::usb_device
