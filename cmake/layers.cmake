@@ -87,7 +87,7 @@ set(ASTRO_LAYERS
 )
 
 # Headers that would bring float, heap or the operating system into code that runs on the robot.
-set(ASTRO_ON_ROBOT common hal/interface hal/rp2040 hal/teensy40 hal/usb firmware)
+set(ASTRO_ON_ROBOT common hal/i2c hal/interface hal/rp2040 hal/teensy40 hal/usb firmware)
 set(ASTRO_ON_ROBOT_FORBIDDEN
   cmath math.h complex random iostream fstream sstream cstdio stdio.h string vector map set list deque
   unordered_map unordered_set memory functional thread mutex future chrono filesystem new stdexcept)
