@@ -236,20 +236,29 @@ simulation::Room room_with_people(int people) {
   return crowd;
 }
 
-struct AmongTwoPeople : ScannedExperiment {
-  AmongTwoPeople() : ScannedExperiment(room_with_people(2)) {}
+/// What is found of a robot that nobody calibrates: a drive of the next phase may begin in front of a person's legs.
+struct AmongPeople : ScannedExperiment {
+  explicit AmongPeople(int people) : ScannedExperiment(room_with_people(people)) {
+    hooks_.decide = [](const Calibration&, const std::vector<Change>&) { return Decision::keep; };
+  }
+};
+
+struct AmongTwoPeople : AmongPeople {
+  AmongTwoPeople() : AmongPeople(2) {}
 };
 
 TEST_F(AmongTwoPeople, StillFindsHowTheWheelsDiffer) {
   const Results results = run(scanned_plan());
   const Calibration& found = *results.before().calibration;
+  fmt::print("E_d off by {:.5f} ± {:.5f}, b by {:.5f} ± {:.5f}\n", found.E_d() - config_.true_ed,
+             found.se.E_d, found.factors.b_m / config_.true_wheelbase_m - 1, precision_of(found).b);
   EXPECT_NEAR(found.E_d(), config_.true_ed, 4 * found.se.E_d);
   EXPECT_NEAR(found.factors.b_m / config_.true_wheelbase_m, 1, 4 * precision_of(found).b);
   EXPECT_LT(found.se.E_d, 1e-3) << "an error that is so large that anything is right proves nothing";
 }
 
-struct InACrowd : ScannedExperiment {
-  InACrowd() : ScannedExperiment(room_with_people(8)) {}
+struct InACrowd : AmongPeople {
+  InACrowd() : AmongPeople(8) {}
 };
 
 TEST_F(InACrowd, IsNotShownToBeBetterAndToldHowManyScansDoNotMatch) {
