@@ -80,7 +80,7 @@ TEST(ScanPath, BeginsWithTheFirstScanThatShowsWalls) {
     number = 0;
     read([&](const Scan& scan) {
       Scan seen = scan;
-      if (number++ == 0)
+      if (number++ < 3)
         std::ranges::fill(seen.ranges_m,
                           std::numeric_limits<float>::quiet_NaN());  // somebody stands before it
       take(seen);
@@ -88,8 +88,11 @@ TEST(ScanPath, BeginsWithTheFirstScanThatShowsWalls) {
   };
   const std::vector<ScannedPose> path = path_by_scans(recorded, kLoaded);
   ASSERT_GT(path.size(), 150u);
-  EXPECT_FALSE(path.front().valid);
-  EXPECT_EQ(std::ranges::count_if(path, &ScannedPose::valid), std::ssize(path) - 1);
+  // The very first is at the time of the first wheels: the scanner's clock, known to microseconds, decides whether it counts.
+  const auto first = std::ranges::find_if(path, &ScannedPose::valid);
+  EXPECT_GE(first - path.begin(), 2);
+  EXPECT_LE(first - path.begin(), 3);
+  EXPECT_TRUE(std::all_of(first, path.end(), [](const ScannedPose& pose) { return pose.valid; }));
 }
 
 TEST(ScanPath, IsRefusedOfMirrorImages) {
