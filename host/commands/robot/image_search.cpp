@@ -10,9 +10,10 @@ namespace fs = std::filesystem;
 
 fs::path find_image(std::string_view board, const fs::path& build, const fs::path& share) {
   if (board != "teensy40" && board != "rp2040")
-    throw Error(fmt::format("the robot runs on a '{}', for which there is no firmware to load: it loads into "
-                            "a Teensy 4.0 and a Pico",
-                            board));
+    throw Error(
+        fmt::format("the robot runs on a '{}', for which there is no firmware to load: it loads into "
+                    "a Teensy 4.0 and a Pico",
+                    board));
   const std::string name = fmt::format("astrolabe-{}.{}", board, board == "rp2040" ? "uf2" : "hex");
   const fs::path built = build / board / "bin" / name, installed = share / name;
   for (const fs::path& image : {built, installed})
