@@ -100,8 +100,8 @@ int main() {
   sim::Config gyro_robot = reference_robot();
   gyro_robot.gyro.emplace();
   for (int i = 0; i < 3; ++i)
-    with_gyro = std::max(
-        with_gyro, speed_against_real_time(std::make_shared<VirtualRobot>(gyro_robot, MocapConfig{})));
+    with_gyro = std::max(with_gyro,
+                         speed_against_real_time(std::make_shared<VirtualRobot>(gyro_robot, MocapConfig{})));
   fmt::print("the same with a gyro: {:.0f} x real time (bar 4000)\n", with_gyro);
   for (int i = 0; i < 3; ++i)
     in_room = std::max(in_room, speed_against_real_time(std::make_shared<VirtualRobot>(
