@@ -70,9 +70,7 @@ class TickCost : public testing::Test {
   robot::Client client_{std::make_unique<emulator::PortTransport>(robot_, emulator::Port::serial)};
 };
 
-TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350Instructions) {
-  expect_within(350);
-}
+TEST_F(TickCost, OfControlOdometryAndSafetyIsWithin350Instructions) { expect_within(350); }
 
 // Two divisions more, each with what brings its numbers to their best scale.
 TEST_F(TickCost, WithACurvatureEffectIsWithin400Instructions) {
