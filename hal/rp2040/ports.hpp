@@ -1,34 +1,12 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 #include "hal/rp2040/uart.hpp"
 #include "hal/rp2040/usb/usb_serial.hpp"
+#include "hal/usb/ports.hpp"
 
 namespace astro::rp2040 {
 
-/// Port 0 is USB, port 1 the serial port on GP0 and GP1.
-class Ports {
- public:
-  static constexpr int kPorts = 2;
-
-  Ports(UsbSerial& usb, Uart& uart) : usb_(usb), uart_(uart) {}
-
-  std::size_t read(int port, std::span<std::uint8_t> into) noexcept {
-    return port == kUsb ? usb_.read(into) : uart_.read(into);
-  }
-  std::size_t write(int port, std::span<const std::uint8_t> bytes) noexcept {
-    return port == kUsb ? usb_.write(bytes) : uart_.write(bytes);
-  }
-  std::size_t room(int port) noexcept { return port == kUsb ? usb_.room() : uart_.room(); }
-
- private:
-  static constexpr int kUsb = 0;
-
-  UsbSerial& usb_;
-  Uart& uart_;
-};
+/// Port 1 is the UART on GP0 and GP1.
+using Ports = usb_device::Ports<UsbSerial, Uart>;
 
 }  // namespace astro::rp2040
