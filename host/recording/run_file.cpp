@@ -175,13 +175,13 @@ void unwrap(std::deque<Sample>& samples, const std::optional<double>& first_rad)
 }
 
 /// The same for the headings with the gyro, each within half a turn of the one before, as far from the wheels' next heading as that
-/// one was.
+/// one was. Behind the last one of the wheels, which a file that was cut off may lack, that one counts.
 void unwrap_gyro(std::deque<GyroPose>& poses, const std::deque<OdometrySample>& odometry) {
+  if (odometry.empty()) return;
   double apart_rad = 0;
   auto wheels = odometry.begin();
   for (GyroPose& pose : poses) {
-    while (wheels != odometry.end() && wheels->time_us < pose.time_us) ++wheels;
-    if (wheels == odometry.end()) return;
+    while (wheels + 1 != odometry.end() && wheels->time_us < pose.time_us) ++wheels;
     if (!std::isfinite(pose.theta_rad) || !std::isfinite(wheels->theta_rad)) continue;
     const double off_rad = pose.theta_rad - wheels->theta_rad - apart_rad;
     pose.theta_rad -= std::round(off_rad / (2 * std::numbers::pi)) * (2 * std::numbers::pi);

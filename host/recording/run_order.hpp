@@ -4,7 +4,8 @@
 
 namespace astro::recording {
 
-/// Calls `take` for every sample, scan, pose with the gyro and slip of a run in order of time; of those at the same time the odometry comes last.
+/// Calls `take` for every sample, scan, pose with the gyro and slip of a run in order of time; of those at the same time the odometry
+/// comes last.
 template <class Take>
 void for_each_in_order(const Run& run, Take take) {
   auto truth = run.truth.begin();

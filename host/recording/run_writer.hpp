@@ -19,8 +19,9 @@ namespace astro::recording {
 ///
 /// Topics  /odom nav_msgs/msg/Odometry (odom -> base_link), /wheel_counts astrolabe_msgs/msg/WheelCounts,
 ///         /truth geometry_msgs/msg/PoseStamped (frame truth); if the robot uses a gyro, /odom_gyro nav_msgs/msg/Odometry; if there
-///         are slips, /gyro_slip astrolabe_msgs/msg/GyroSlip; if there are scans, /scan sensor_msgs/msg/LaserScan; run info as Metadata "astrolabe.run". For viewers /tf and,
-///         if the run knows the robot's sizes, /joint_states and /robot_description (robot_messages.hpp).
+///         are slips, /gyro_slip astrolabe_msgs/msg/GyroSlip; if there are scans, /scan sensor_msgs/msg/LaserScan; run info as
+///         Metadata "astrolabe.run". For viewers /tf and, if the run knows the robot's sizes, /joint_states and
+///         /robot_description (robot_messages.hpp).
 /// Times   stamps inside the messages are the robot's clock. MCAP's own times are UTC, so that viewers show
 ///         when it was driven and not 1970: the first message is at RunInfo::started_at, the others at their
 ///         distance from it by the robot's clock. Without a started_at they are the robot's clock, too.

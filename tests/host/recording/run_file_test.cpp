@@ -120,6 +120,9 @@ TEST(RunFile, PosesWithTheGyroComeBackWithTheWholeTurnsThatTheyHaveFromTheWheels
     const OdometrySample& sample = run.odometry[i];
     run.gyro.push_back({sample.time_us - 7000, 1.5, -2.25, sample.theta_rad + (off_rad += 0.3), 0.125});
   }
+  const OdometrySample last = run.odometry.back();
+  for (int i = 1; i <= 3; ++i)  // a file that was cut off may lack the odometry behind them
+    run.gyro.push_back({last.time_us + i * 10000, 1.5, -2.25, last.theta_rad + (off_rad += 0.3), 0.125});
   write_run(folder / "run.mcap", run);
   const recording::Run back = read_run(folder / "run.mcap");
   expect_same_data(run, back);
