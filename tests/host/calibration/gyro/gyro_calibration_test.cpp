@@ -1,0 +1,122 @@
+#include "host/calibration/gyro/gyro_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/host/calibration/gyro/gyro_drives.hpp"
+#include "tests/support/base/remarks.hpp"
+
+namespace astro::calibration {
+namespace {
+
+/// Errors of many robots, in their unit and over the errors that were stated.
+struct Errors {
+  double squares = 0, normalised = 0;
+  int count = 0;
+
+  void add(double error, double se) {
+    squares += error * error;
+    normalised += error * error / (se * se);
+    ++count;
+  }
+  double rms() const { return std::sqrt(squares / count); }
+  double chi_square() const { return normalised / count; }
+};
+
+// Chi-square over its degrees of freedom scatters by 0.18 between sets of 64 robots.
+TEST(GyroCalibration, FindsScaleAndLagOfSixtyFourRobotsAndKnowsHowWell) {
+  Errors scale, lag, product;
+  const simulation::study::DriveModel robot = gyro_robot();
+  for (std::uint64_t seed = 1; seed <= 64; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> even(-1, 1);
+    GyroModel gyro;
+    gyro.scale = (1 + 0.01 * even(random)) * (seed % 4 == 0 ? -1 : 1);
+    gyro.lag_s = 0.01 + 0.01 * even(random);
+    gyro.bias_radps = 0.05 * even(random);
+    const std::vector<GyroDrive> drives = gyro_squares(gyro, seed);
+    const GyroAgainstWheels found = compare_gyro(drives, robot.actual);
+    const auto by_truth = gyro_scale_by_truth(drives, robot.actual, found);
+    ASSERT_TRUE(by_truth);
+    EXPECT_TRUE(found.slips.empty()) << seed;
+    scale.add(by_truth->scale - gyro.scale, by_truth->se);
+    lag.add(found.lag_s - gyro.lag_s, found.lag_se_s);
+    product.add(found.product - gyro.scale, found.product_se);
+  }
+  std::printf(
+      "of 64 robots, rms error and chi-square: scale %.4f %% %.2f, lag %.3f ms %.2f, product %.4f %% %.2f\n",
+      100 * scale.rms(), scale.chi_square(), 1000 * lag.rms(), lag.chi_square(), 100 * product.rms(),
+      product.chi_square());
+  EXPECT_LT(scale.rms(), 5e-4);
+  for (const Errors* errors : {&scale, &lag, &product}) {
+    EXPECT_GT(errors->chi_square(), 0.8);
+    EXPECT_LT(errors->chi_square(), 1.25);
+  }
+  EXPECT_LT(lag.rms(), 5e-3) << "by more than that slips seem to be seen at every spin";
+}
+
+TEST(GyroCalibration, FindsTheLagOfASlowSensor) {
+  const std::vector<GyroDrive> drives = gyro_squares({.scale = 1.004, .lag_s = 0.18}, 3);
+  const GyroAgainstWheels found = compare_gyro(drives, gyro_robot().actual);
+  EXPECT_NEAR(found.lag_s, 0.18, 4 * found.lag_se_s);
+  EXPECT_LT(found.lag_se_s, 2e-3);
+}
+
+TEST(GyroCalibration, WheelsAndGyroAloneShowTheScaleTimesTheLoadedWheelbaseOverTheTrueOne) {
+  const simulation::study::DriveModel robot = gyro_robot();
+  WheelFactors loaded = robot.actual;
+  loaded.b_m *= 1.02;
+  const std::vector<GyroDrive> drives = gyro_squares({.scale = 0.99}, 5);
+  const GyroAgainstWheels found = compare_gyro(drives, loaded);
+  EXPECT_NEAR(found.product, 0.99 * 1.02, 4 * found.product_se);
+  EXPECT_LT(found.product_se, 2e-3);
+}
+
+TEST(GyroCalibration, AWheelThatIsLargerThanTheFactorsSayIsNotTakenForTheScale) {
+  const simulation::study::DriveModel robot = gyro_robot();
+  WheelFactors loaded = robot.actual;
+  loaded.c_r *= 1.004;
+  // Squares one way round: the way and the turn go together.
+  std::vector<GyroDrive> drives = gyro_squares({}, 6);
+  for (std::size_t i = drives.size(); i-- > 0;)
+    if (i % 2 == 1) drives.erase(drives.begin() + static_cast<std::ptrdiff_t>(i));
+  const GyroAgainstWheels found = compare_gyro(drives, loaded);
+  EXPECT_NEAR(found.product, 1, 4 * found.product_se);
+}
+
+TEST(GyroCalibration, FindsAKickWithItsTimeAndPlaceAndIsNotMovedByIt) {
+  constexpr double kKick_rad = 5 * kDegree_rad, kAt_s = 9;
+  const GyroModel gyro{.scale = 1.005, .lag_s = 0.008};
+  std::vector<GyroDrive> drives = gyro_squares(gyro, 7);
+  const GyroAgainstWheels before = compare_gyro(drives, gyro_robot().actual);
+  drives[4] = with_gyro(squares(gyro_robot(), 10, 2, 7)[4], gyro, 704, {kAt_s, kKick_rad});
+  const GyroAgainstWheels found = compare_gyro(drives, gyro_robot().actual);
+  ASSERT_EQ(found.slips.size(), 1U);
+  const UnseenTurn& slip = found.slips[0];
+  EXPECT_EQ(slip.drive, 4U);
+  EXPECT_LT(slip.begin_s, kAt_s);
+  EXPECT_GT(slip.end_s, kAt_s + 0.1);
+  EXPECT_LT(slip.end_s - slip.begin_s, 1) << "two windows and the kick itself";
+  EXPECT_NEAR(slip.turn_rad, kKick_rad, 0.3 * kDegree_rad) << "noise of tyres over the window";
+  EXPECT_GT(std::hypot(slip.place.x_m, slip.place.y_m), 0.5) << "on its way";
+  EXPECT_NEAR(found.product, before.product, found.product_se);
+}
+
+TEST(GyroCalibration, RefusesWhatShowsNothing) {
+  const WheelFactors factors = gyro_robot().actual;
+  std::vector<GyroDrive> drives = gyro_squares({}, 8);
+  const auto kind = [&] { return support::told_by([&] { compare_gyro(drives, factors); }).kind; };
+  for (GyroDrive& drive : drives)
+    for (std::size_t i = 0; i < drive.rates.size(); ++i)
+      drive.rates[i].rate_radps = 0.5 * std::sin(0.7 * static_cast<double>(i * i % 1009));
+  EXPECT_EQ(kind(), Kind(GyroProblem::nothing_alike)) << "that of another robot";
+  for (GyroDrive& drive : drives) drive.rates.clear();
+  EXPECT_EQ(kind(), Kind(GyroProblem::no_rates));
+  drives = {with_gyro(
+      simulation::study::synthetic_drive(simulation::study::line_course(3), gyro_robot(), "line", 1), {}, 1)};
+  EXPECT_EQ(kind(), Kind(GyroProblem::no_turns));
+}
+
+}  // namespace
+}  // namespace astro::calibration
