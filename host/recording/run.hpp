@@ -38,6 +38,12 @@ struct GyroSlip {
   double turn_rad = 0;  // counter-clockwise, so far
 };
 
+/// What a gyro said, as a drive of other programs has it: about the robot's vertical axis, counter-clockwise, with its bias.
+struct YawRate {
+  std::int64_t time_us = 0;
+  double rate_radps = 0;
+};
+
 struct TruthSample {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
@@ -75,6 +81,8 @@ struct Run {
   std::vector<lidar::Scan> scans = {};
   std::vector<GyroSlip> slips = {};
   std::vector<GyroPose> gyro = {};  // in order of time; none of a robot that uses no gyro
+  /// In order of time; only of drives that other programs recorded. Not stored.
+  std::vector<YawRate> yaw_rates = {};
 };
 
 }  // namespace astro::recording

@@ -108,6 +108,9 @@ constexpr Advice kImportAdvice[] = {
      ": name the tracker's poses with --truth-topic, or other wheels with --wheels-topic"},
     {importing::WheelProblem::poses_unclear,
      ": name one with --truth-topic, and its frames with --truth-frames PARENT,CHILD"},
+    {importing::WheelProblem::imu_unclear, ": name one with --imu-topic"},
+    {importing::ChoiceRemark::several_imus, "; name one with --imu-topic"},
+    {importing::ChoiceRemark::yaw_axis_unclear, "; --imu-axis names the axis that points up"},
     {importing::WheelProblem::controller_unclear, ": name one with --controller"},
     {truth::FloorRemark::units_differ,
      ": check the units, or say that of the ground truth with --truth-unit"},
@@ -175,6 +178,16 @@ void add_bag_choices(console::Command command, ImportOptions& options) {
           "bags: the joints of the wheels; several on a side as\nLEFT+LEFT,RIGHT+RIGHT, whose mean counts")
       .type_name("LEFT,RIGHT")
       .delimiter(',');
+  command
+      .add_option("--imu-topic", options.imu_topic,
+                  "bags: the topic of the IMU whose gyro is calibrated\nbeside the wheels")
+      .type_name("TOPIC");
+  command
+      .add_option("--imu-axis", options.imu_axis,
+                  "bags: which axis of the IMU points up: x, y, z, -x,\n-y, -z or A,B,C (default: found from "
+                  "the wheels)")
+      .type_name("AXIS")
+      .check(is_axis());
   command.add_option("--truth-topic", options.truth_topic, "bags: the topic of the tracker's poses")
       .type_name("TOPIC");
   command.add_option("--truth-frames", options.frames, "bags: the frames of a transform")

@@ -101,7 +101,7 @@ PairedDrive pair_up(const std::string& name, const DriveFiles& files, ImportedWh
   const AssumedTimeUnit wheel_times{files.wheels.string(), assumed_in(wheels.track.remarks)},
       truth_times{files.truth.string(), assumed_in(truth.track.facts.remarks)};
   const std::optional<double> counter_range = wheels.track.counter_range;
-  WheelRun made = run_of_wheels(name, std::move(wheels), given);
+  WheelRun made = run_of_wheels(name, std::move(wheels), given, choices.wheels.imu_axis);
   PairedDrive drive{
       std::move(made.run), {{}, std::move(made.summary), std::move(made.remarks)}, counter_range};
   drive.run.info.truth_source = "file";

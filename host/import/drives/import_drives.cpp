@@ -77,7 +77,7 @@ PairedDrive unpaired(const std::string& name, const DriveFiles& files, const Imp
   ImportedWheels wheels = read_wheels(files.wheels, choices.wheels);
   const std::optional<double> counter_range = wheels.track.counter_range;
   const RobotGeometry& sizes = geometry.of(files.wheels, wheels);
-  WheelRun made = run_of_wheels(name, std::move(wheels), sizes);
+  WheelRun made = run_of_wheels(name, std::move(wheels), sizes, choices.wheels.imu_axis);
   return {std::move(made.run), {{}, std::move(made.summary), std::move(made.remarks)}, counter_range};
 }
 

@@ -55,12 +55,21 @@ RobotGeometry geometry_of(const StatedDrives& drives) {
   return geometry.overridden_by(given);
 }
 
-std::optional<truth::Direction3> up_of(const StatedDrives& drives) {
-  if (drives.up.empty()) return std::nullopt;
-  if (const auto axis = axis_named(drives.up)) return axis;
+std::optional<truth::Direction3> axis_in(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  if (const auto axis = axis_named(word)) return axis;
   throw Error(
-      "'" + drives.up + "' is no axis: name x, y or z, one with a minus before it, or three numbers as 0,1,0",
-      StatementProblem::unknown_axis, {drives.up});
+      "'" + word + "' is no axis: name x, y or z, one with a minus before it, or three numbers as 0,1,0",
+      StatementProblem::unknown_axis, {word});
+}
+
+/// Of length one.
+std::optional<truth::Direction3> imu_axis_of(const StatedDrives& drives) {
+  std::optional<truth::Direction3> axis = axis_in(drives.imu_axis);
+  if (!axis) return axis;
+  const double length = std::hypot((*axis)[0], (*axis)[1], (*axis)[2]);
+  for (double& part : *axis) part /= length;
+  return axis;
 }
 
 std::optional<TravelMeasure> measure_of(const StatedDrives& drives) {
@@ -109,6 +118,8 @@ ImportChoices choices_of(const StatedDrives& drives) {
     choices.wheels.bag.further.assign(joints.begin() + 1, joints.end());
   choices.wheels.bag.measure = measure_of(drives);
   if (choices.geometry.wheelbase_m) choices.wheels.bag.odometry = choices.geometry.factors();
+  choices.wheels.imu_topic = drives.imu_topic;
+  choices.wheels.imu_axis = imu_axis_of(drives);
   choices.wheels.exchanged = drives.swap_wheels;
   choices.wheels.reversed = drives.reverse_wheels;
   choices.drives_backward = drives.drives_backward;
@@ -119,7 +130,7 @@ ImportChoices choices_of(const StatedDrives& drives) {
     choices.truth.poses.frame = drives.frames[0];
     choices.truth.poses.child_frame = drives.frames[1];
   }
-  choices.floor.up = up_of(drives);
+  choices.floor.up = axis_in(drives.up);
   choices.truth.length_unit = drives.unit;
   if (drives.mirrored != "auto") choices.floor.mirrored = drives.mirrored == "yes";
   return choices;

@@ -36,6 +36,7 @@ struct StatedDrives {
   std::vector<std::filesystem::path> wheels, truth;  // of each drive
   WheelTable table;
   std::string wheels_topic, truth_topic;  // of bags
+  std::string imu_topic, imu_axis;        // of bags; the axis as axis_named takes it
   std::string wheels_unit;                // a name of travel_measures()
   std::string truth_columns, body;
   std::string up;                   // as axis_named takes it

@@ -66,6 +66,8 @@ std::vector<Statement> statements_in(const StatedDrives& drives) {
        "no file of ground truth is a table"},
       {Choice::wheels_topic, "wheels_topic", !drives.wheels_topic.empty(), bags_of_wheels, kNoBagOfWheels},
       {Choice::wheels_unit, "wheels_unit", !drives.wheels_unit.empty(), bags_of_wheels, kNoBagOfWheels},
+      {Choice::imu_topic, "imu_topic", !drives.imu_topic.empty(), bags_of_wheels, kNoBagOfWheels},
+      {Choice::imu_axis, "imu_axis", !drives.imu_axis.empty(), bags_of_wheels, kNoBagOfWheels},
       {Choice::joints, "joints", !drives.joints.empty(), any_bag_of_others, kNoBagOfWheels},
       {Choice::truth_topic, "truth_topic", !drives.truth_topic.empty(), bags_of_poses, kNoBagOfPoses},
       {Choice::truth_frames, "truth_frames", !drives.frames.empty(), bags_of_poses, kNoBagOfPoses},
@@ -120,9 +122,9 @@ void refuse_choices_unused_with_scans(const StatedDrives& drives) {
 
 void refuse_choices_unused_with_arrays(const StatedDrives& drives) {
   using enum Choice;
-  const std::vector<Choice> of_files{wheel_columns, per_interval, counter_range, truth_columns,
-                                     wheels_topic,  wheels_unit,  joints,        truth_topic,
-                                     truth_frames,  truth_unit,   body};
+  const std::vector<Choice> of_files{wheel_columns, per_interval, counter_range, truth_columns, wheels_topic,
+                                     wheels_unit,   joints,       truth_topic,   truth_frames,  truth_unit,
+                                     body,          imu_topic,    imu_axis};
   for (const Choice choice : stated_choices(drives))
     if (std::ranges::count(of_files, choice) > 0) throw UnusedChoice(choice, "the drives are arrays");
 }

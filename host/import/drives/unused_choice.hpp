@@ -17,6 +17,8 @@ enum class Choice {
   truth_columns,
   wheels_topic,
   wheels_unit,
+  imu_topic,
+  imu_axis,
   joints,
   truth_topic,
   truth_frames,

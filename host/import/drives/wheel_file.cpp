@@ -39,10 +39,10 @@ ImportedWheels read(const fs::path& path, const WheelSelection& selection) {
     return {read_wheel_table(path, selection.table), {}};
   }
   if (selection.bag.topic.empty() && is_own_recording(path)) {
-    const recording::Run run = recording::read_run(path);
-    return {track_of(run), run.info};
+    recording::Run run = recording::read_run(path);
+    return {track_of(run), run.info, {}, std::move(run.gyro), std::move(run.slips)};
   }
-  return {wheels_in_bag(path, selection.bag), {}};
+  return {wheels_in_bag(path, selection.bag), {}, imu_rates_in_bag(path, selection.imu_topic)};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "host/calibration/motion/wheel_factors.hpp"
 #include "host/experiment/analysis/squares.hpp"
 #include "host/experiment/analysis/trajectories.hpp"
+#include "host/import/drives/yaw_axis.hpp"
 
 namespace astro::importing {
 namespace {
@@ -193,7 +194,8 @@ std::string summary_of(const std::vector<WheelSample>& counts) {
 
 }  // namespace
 
-WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const RobotGeometry& given) {
+WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const RobotGeometry& given,
+                       const std::optional<std::array<double, 3>>& imu_axis) {
   if (given.open_loop && !wheels.track.odometry.empty())
     throw Error("'" + name + "': the controller makes its odometry " + wheels.track.odometry +
                     " of commands (open_loop: true), not of the wheels: record what the encoders say, such "
@@ -210,6 +212,9 @@ WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const Rob
   made.run.info = info_of(wheels, counter, geometry);
   made.summary = summary_of(wheels.track.samples);
   made.run.odometry = odometry_of(std::move(wheels.track.samples), counter, geometry);
+  made.run.yaw_rates = yaw_rates_of(std::move(wheels.imu), made.run.odometry, imu_axis, made.remarks);
+  made.run.gyro = std::move(wheels.gyro);
+  made.run.slips = std::move(wheels.slips);
   return made;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +26,12 @@ struct WheelRun {
   std::vector<Remark> remarks;  // what was inferred or left out
 };
 
-/// Makes a run of a wheel track. Angles and metres of travel become counts with kAngleCounts in a turn
+/// Makes a run of a wheel track, with its gyro's yaw rate; imu_axis: as WheelSelection has it. Angles and metres of travel become counts with kAngleCounts in a turn
 /// (analysis/trajectories.hpp).
 ///
 /// Throws astro::Error if a wheel turns 100 times between two samples, or leaps faster than 20 m/s, and what
 /// complete_geometry throws.
-WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const RobotGeometry& given);
+WheelRun run_of_wheels(const std::string& name, ImportedWheels wheels, const RobotGeometry& given,
+                       const std::optional<std::array<double, 3>>& imu_axis = {});
 
 }  // namespace astro::importing

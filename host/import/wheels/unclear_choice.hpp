@@ -18,18 +18,22 @@ enum class WheelProblem {
   odometry_needs_sizes,
   poses_unclear,
   controller_unclear,
+  imu_unclear,
   nothing_to_choose
 };
 
 /// What a remark reports about a choice. Values: the joints of the left and of the right wheel; the stream of
 /// poses and its type; the name of the source of the wheels (wheel_sources.hpp) and its unit; the topic of
-/// the odometry.
+/// the odometry; the topics of the IMUs; an axis with its sign and the topic of its IMU; that topic.
 enum class ChoiceRemark {
   joints_recognised,
   poses_recognised,
   poses_may_be_estimate,
   wheels_recognised,
-  wheels_from_odometry
+  wheels_from_odometry,
+  several_imus,
+  yaw_axis_recognised,
+  yaw_axis_unclear
 };
 
 /// Thrown if a file alone does not show what was meant, or does not contain it; values() lists what there is
