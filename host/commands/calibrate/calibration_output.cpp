@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "host/base/error.hpp"
+#include "host/base/text/columns.hpp"
 #include "host/commands/shared/calibration_view.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
@@ -17,6 +21,27 @@
 #include "host/import/drives/drive_report.hpp"
 
 namespace astro::commands {
+namespace {
+
+std::string gyro_text(const experiment::GyroResult& gyro) {
+  std::string text = '\n' + wrapped(experiment::gyro_sentence(gyro));
+  for (const std::string& slip : experiment::slip_sentences(gyro))
+    text += wrapped("Take care: " + slip + '.');
+  return text;
+}
+
+}  // namespace
+
+std::optional<experiment::GyroResult> gyro_of(const experiment::RunSet& set,
+                                              const experiment::Calibration& found) {
+  if (found.end_poses() != nullptr) return std::nullopt;
+  try {
+    return experiment::calibrate_gyro(set, found);
+  } catch (const Error& error) {
+    console::say(error.in("the gyro is not calibrated: ").sentence);
+    return std::nullopt;
+  }
+}
 
 void add_output(console::Command command, CalibrationOutput& output) {
   command.add_option("--out", output.file, "write the result here, for 'astrolabe upload'");
@@ -28,7 +53,7 @@ void add_report_file(console::Command command, CalibrationOutput& output) {
 }
 
 void put_out(const experiment::Calibration& found, const CalibrationOutput& output,
-             const MakeReport& make_report) {
+             const MakeReport& make_report, const std::optional<experiment::GyroResult>& gyro) {
   if (!output.file.empty()) {
     experiment::write_calibration(output.file, found);
     const bool use = !experiment::advises_against(found.judgement.verdict);
@@ -37,13 +62,21 @@ void put_out(const experiment::Calibration& found, const CalibrationOutput& outp
                       : ", although it is not shown to be better than what the robot carries"));
   }
   if (!output.report.empty()) {
-    report::write_report(output.report, make_report());
+    report::ReportInput input = make_report();
+    if (gyro) {
+      input.notes.push_back(experiment::gyro_sentence(*gyro));
+      for (const std::string& slip : experiment::slip_sentences(*gyro)) input.notes.push_back(slip + '.');
+    }
+    report::write_report(output.report, input);
     console::say("report: " + std::filesystem::absolute(output.report).string());
   }
   if (output.json) {
-    print_json(experiment::to_json(found));
+    nlohmann::json json = experiment::to_json(found);
+    if (gyro) json["gyro"] = experiment::to_json(*gyro);
+    print_json(json);
   } else {
     write(calibration_text(found));
+    if (gyro) write(gyro_text(*gyro));
   }
   if (experiment::advises_against(found.judgement.verdict)) console::answer_no();
 }
@@ -55,13 +88,16 @@ void put_out(const experiment::Calibration& found, const experiment::RunSet& set
         "--report is of whole drives, and --method {} takes the ends of squares: leave it out; 'astrolabe "
         "report' shows squares",
         found.method()));
-  put_out(found, output, [&] {
-    if (found.ml() != nullptr) return importing::drive_report(set, found);
-    std::vector<lidar::ScannedDrive> drives;
-    for (std::size_t i = 0; i < set.runs.size(); ++i)
-      drives.push_back(experiment::scanned_drive(set.runs[i], set.names[i]));
-    return experiment::scan_report(found, drives, false);
-  });
+  put_out(
+      found, output,
+      [&] {
+        if (found.ml() != nullptr) return importing::drive_report(set, found);
+        std::vector<lidar::ScannedDrive> drives;
+        for (std::size_t i = 0; i < set.runs.size(); ++i)
+          drives.push_back(experiment::scanned_drive(set.runs[i], set.names[i]));
+        return experiment::scan_report(found, drives, false);
+      },
+      gyro_of(set, found));
 }
 
 }  // namespace astro::commands

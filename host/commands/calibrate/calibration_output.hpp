@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "host/console/command_line.hpp"
 #include "host/experiment/analysis/calibration.hpp"
+#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/report/report.hpp"
 
 namespace astro::commands {
@@ -25,7 +27,12 @@ using MakeReport = std::function<report::ReportInput()>;
 /// Writes the calibration and its report into their files, if these are named, and prints it as text or JSON. The program then ends
 /// with the code for "no" if the drives advise against loading it.
 void put_out(const experiment::Calibration& found, const CalibrationOutput& output,
-             const MakeReport& make_report = {});
+             const MakeReport& make_report = {}, const std::optional<experiment::GyroResult>& gyro = {});
+
+/// The gyro of the robot that drove, if it has one. One that cannot be calibrated is told, and the wheels' result counts without it.
+std::optional<experiment::GyroResult> gyro_of(const experiment::RunSet& set,
+                                              const experiment::Calibration& found);
+
 /// The same of the drives from which it was found. Throws console::WrongUsage if a report is named and the method takes end poses.
 void put_out(const experiment::Calibration& found, const experiment::RunSet& set,
              const CalibrationOutput& output);

@@ -103,7 +103,9 @@ void calibrate_by_scans(const ImportOptions& options, const CalibrationOutput& o
   experiment::Calibration found = experiment::calibration_of(
       lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored), scans.range_scale.sigma());
   found.wheel = drives.wheel;
-  put_out(found, output, [&] { return experiment::scan_report(found, drives.drives, mirrored); });
+  put_out(
+      found, output, [&] { return experiment::scan_report(found, drives.drives, mirrored); },
+      gyro_of(drives.set, found));
 }
 
 }  // namespace astro::commands

@@ -93,6 +93,7 @@ void read_runs(std::span<const DriveFiles> files, const ImportChoices& choices, 
   const recording::RunInfo& last = imported.set.runs.back().info;
   all.loaded = experiment::loaded_factors(last, imported.set.names.back());
   all.wheel = experiment::nominal_wheel(last, imported.set.names.back());
+  all.set = std::move(imported.set);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct ScannedDrives {
   calibration::WheelFactors loaded;               // of the odometry while they were driven
   std::optional<experiment::NominalWheel> wheel;  // that c_R and c_L refer to; none if it is not known
   std::vector<Remark> remarks;                    // what was found, inferred or left out
+  experiment::RunSet set;  // the wheels of the drives as runs, with their gyros; none of logs of CARMEN
 };
 
 /// Whether a file of ground truth is one of scans: a log of CARMEN, or a bag that has scans but no poses of a tracker, unless poses
