@@ -1,5 +1,6 @@
 #include "host/lidar/keyframes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,11 +28,17 @@ Moved moved(const calibration::WheelState& from, const calibration::WheelState& 
   return {(right_m + left_m) / 2, (right_m - left_m) / loaded.b_m};
 }
 
+bool slipped(const ScannedDrive& drive, double from_s, double to_s) {
+  return std::ranges::any_of(
+      drive.slips, [&](const calibration::Slip& slip) { return slip.begin_s < to_s && slip.end_s > from_s; });
+}
+
 }  // namespace
 
 ScanCounts& ScanCounts::operator+=(const ScanCounts& other) {
-  for (const auto count : {&ScanCounts::scans, &ScanCounts::outside, &ScanCounts::matched,
-                           &ScanCounts::degenerate, &ScanCounts::unmatched, &ScanCounts::gaps})
+  for (const auto count :
+       {&ScanCounts::scans, &ScanCounts::outside, &ScanCounts::matched, &ScanCounts::degenerate,
+        &ScanCounts::unmatched, &ScanCounts::gaps, &ScanCounts::slipped})
     this->*count += other.*count;
   return *this;
 }
@@ -62,6 +69,8 @@ std::optional<ScanMatch> Keyframes::add_stretch(double time_s, const calibration
   std::optional<ScanMatch> found;
   if (moved(last_->wheels, wheels, loaded_).beyond(kTooFar_m, kTooFar_rad)) {
     ++counts.gaps;
+  } else if (slipped(drive_, last_->time_s - start_(kLate), time_s - start_(kLate))) {
+    ++counts.slipped;
   } else {
     found = trusted_match(last_->surface, points, predicted(stretch, start_, loaded_));
     ++(found ? counts.matched : counts.unmatched);

@@ -22,6 +22,7 @@ struct ScanCounts {
   std::size_t degenerate = 0;  // of these: in one direction only
   std::size_t unmatched = 0;   // keyframes that do not fit to the one before
   std::size_t gaps = 0;        // the robot went on for too long without a scan
+  std::size_t slipped = 0;     // the robot is known to have slipped since the keyframe before
 
   ScanCounts& operator+=(const ScanCounts& other);
 };

@@ -23,6 +23,7 @@ struct ScannedDrive {
   std::function<void(const ScanHandler&)> read_scans;
   /// Whether the times of wheels and scans are measured. If not, they only say which samples and scans follow each other.
   bool times_measured = true;
+  std::vector<calibration::Slip> slips = {};  // that are known; on the clock of the wheels
 
   /// In whole seconds and the rest, because the difference of two odd times may be no std::int64_t.
   double seconds(const Scan& scan) const {

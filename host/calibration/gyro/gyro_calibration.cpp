@@ -266,6 +266,8 @@ GyroAgainstWheels compare_gyro(std::span<const GyroDrive> drives, const WheelFac
   const double product = fit.x[kTurn];
   found.product = product;
   found.product_se = std::sqrt(fit.covariance(kTurn, kTurn));
+  found.difference = fit.x[kWay] * factors.b_m / product;
+  found.difference_se = std::sqrt(fit.covariance(kWay, kWay)) * factors.b_m / std::abs(product);
   found.lag_se_s = std::sqrt(fit.covariance(kRate, kRate)) / std::abs(product);
   found.noise = fit.noise;
   found.chi_square = fit.chi_square;

@@ -20,12 +20,10 @@ enum class GyroProblem {
   nothing_alike  // the gyro does not turn as the wheels do
 };
 
-/// The robot turned and its wheels did not, or not as far: a slip or a kick.
 struct UnseenTurn {
   std::size_t drive = 0;
-  double begin_s = 0, end_s = 0;  // on the robot's clock
-  double turn_rad = 0;            // counter-clockwise, that no wheel saw
-  Pose2 place;                    // by the wheels, from the start of the drive
+  Slip slip;
+  Pose2 place;  // by the wheels, from the start of the drive
 };
 
 struct GyroBias {
@@ -38,6 +36,8 @@ struct GyroAgainstWheels {
   /// The gyro's scale times the wheelbase of these factors over the true one: all that wheels and gyro show. Negative: it counts
   /// clockwise.
   double product = 1, product_se = 0;
+  /// By how much c_R over c_L is larger than these factors say, relatively: on its way the robot turned without its wheels' knowing.
+  double difference = 0, difference_se = 0;
   double lag_s = 0, lag_se_s = 0;  // from a motion to its reading, beyond that of the encoders
   std::vector<GyroBias> biases;    // of the drives that have rates
   TurnNoise noise;                 // slip_rad2pm: of the wheels

@@ -109,7 +109,7 @@ std::vector<UnseenTurn> unseen_turns(std::span<const WheelTurn> wheels, const Gy
   std::vector<UnseenTurn> found;
   for (const Stretch& stretch : merged) {
     const Beyond &from = all[stretch.from], &to = all[stretch.to];
-    found.push_back({0, from.wheels->time_s, to.wheels->time_s, to.rad - from.rad, from.wheels->pose});
+    found.push_back({0, {from.wheels->time_s, to.wheels->time_s, to.rad - from.rad}, from.wheels->pose});
   }
   return found;
 }

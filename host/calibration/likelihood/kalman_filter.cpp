@@ -79,10 +79,11 @@ class KalmanFilter {
     for (Accumulator* each : accumulators_) each->predict(step);
   }
 
-  /// The robot moved on an unknown way.
-  void lose_place(double variance_m2) {
+  /// The robot moved on an unknown way, and turned by an unknown angle.
+  void lose_place(double variance_m2, double variance_rad2) {
     covariance_.xx += variance_m2;
     covariance_.yy += variance_m2;
+    covariance_.tt += variance_rad2;
   }
 
   void update(const BodySample& sample, Motion motion) {
@@ -168,7 +169,7 @@ void filter_run(const Moves& moves, const NoiseModel& noise, RobustMode robust, 
   std::array<double, 4> spent_s{};  // by Motion
   for (const Leg& leg : moves.legs()) {
     if (leg.moved) filter.predict(leg.move);
-    if (leg.unknown_m2 > 0) filter.lose_place(leg.unknown_m2);
+    if (leg.unknown_m2 > 0) filter.lose_place(leg.unknown_m2, leg.unknown_rad2);
     for (std::size_t motion = 0; motion < spent_s.size(); ++motion) spent_s[motion] += leg.spent_s[motion];
     const std::size_t i = leg.sample;
     if (!samples.takes(run.knots_m, i)) continue;

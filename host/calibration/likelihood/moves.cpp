@@ -211,7 +211,10 @@ void Moves::change(const Unknowns& unknowns) {
       was = is;
     }
     for (; gap != run.gaps.end() && gap->end_s < end.time_s + kLongestStep_s; ++gap)
-      if (i > 0) leg.unknown_m2 += gap->unknown_m2;
+      if (i > 0) {
+        leg.unknown_m2 += gap->unknown_m2;
+        leg.unknown_rad2 += gap->unknown_rad2;
+      }
     leg.spent_s[static_cast<std::size_t>(run.motion[i])] += duration_s;
     if (!takes(i)) continue;
     leg.sample = i;
@@ -226,6 +229,7 @@ Moves Moves::joined(const SampleSelection& selection) const {
   for (const Leg& part : legs_) {
     if (part.moved) add(leg, part.move);
     leg.unknown_m2 += part.unknown_m2;
+    leg.unknown_rad2 += part.unknown_rad2;
     for (std::size_t motion = 0; motion < leg.spent_s.size(); ++motion)
       leg.spent_s[motion] += part.spent_s[motion];
     if (!out.takes(part.sample)) continue;

@@ -40,6 +40,7 @@ struct Leg {
   bool moved = false;      // else the wheels stood
   Move move;
   double unknown_m2 = 0;            // variance of each coordinate by gaps of the odometry (PreparedRun::gaps)
+  double unknown_rad2 = 0;          // of the heading
   std::array<double, 4> spent_s{};  // in each Motion, on the robot's clock
 };
 

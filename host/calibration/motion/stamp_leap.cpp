@@ -100,7 +100,13 @@ void take_back(Trajectory& run, const StampLeap& leap) {
   const auto shift = [&](auto& samples) {
     for (std::size_t i = leap.after; i < samples.size(); ++i) samples[i].time_s -= leap.by_s;
   };
-  leap.stream == StampedStream::odometry ? shift(run.wheels) : shift(run.truth);
+  if (leap.stream == StampedStream::ground_truth) return shift(run.truth);
+  const double first_s = run.wheels.at(leap.after).time_s;
+  for (Slip& slip : run.slips) {
+    if (slip.begin_s >= first_s) slip.begin_s -= leap.by_s;
+    if (slip.end_s >= first_s) slip.end_s -= leap.by_s;
+  }
+  shift(run.wheels);
 }
 
 }  // namespace astro::calibration

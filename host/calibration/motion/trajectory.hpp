@@ -24,6 +24,12 @@ struct BodySample {
   double x_m = 0, y_m = 0, theta_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The robot turned and its wheels did not, or not as far: it slipped or was kicked. Robot's clock.
+struct Slip {
+  double begin_s = 0, end_s = 0;
+  double turn_rad = 0;  // counter-clockwise, that no wheel saw
+};
+
 /// One drive. Both streams in order of time; `truth` holds valid samples only and may have gaps.
 struct Trajectory {
   std::string name;  // how messages call it: "run square cw 3 (before)"
@@ -38,6 +44,8 @@ struct Trajectory {
   bool ends_only = false;
 
   std::optional<double> started_s = {};  // when it was driven, in seconds since 1970; nothing if not known
+
+  std::vector<Slip> slips = {};  // that are known, as from a gyro; in order of time
 };
 
 /// Pose of the tracked body in the robot frame (x forward, y left, origin midway between the wheels).

@@ -19,6 +19,7 @@
 #include "host/calibration/preparation/handedness.hpp"
 #include "host/calibration/preparation/preparation_problem.hpp"
 #include "host/calibration/preparation/sessions.hpp"
+#include "host/calibration/preparation/slips.hpp"
 #include "host/calibration/preparation/wheel_way.hpp"
 
 namespace astro::calibration {
@@ -232,6 +233,7 @@ PreparedRun cropped(const Trajectory& run, const ClockFit& clock, double wheelba
   prepared.has_headings = mostly_headings(run.truth);
   prepared.clock_middle_s = (run.wheels.front().time_s + run.wheels.back().time_s) / 2 - clock.offset_s;
   prepared.gaps = gaps_of(run, wheelbase_m);
+  if (!run.slips.empty()) prepared.gaps = joined(std::move(prepared.gaps), gaps_of_slips(run));
   if (run.ends_only) {
     prepared.truth = run.truth;
     prepared.truth.front().time_s = run.wheels.front().time_s + kMargin_s;
@@ -440,8 +442,10 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
   if (runs.empty()) throw Error("there are no runs to calibrate from", PreparationProblem::no_runs);
   PreparedRuns prepared;
   std::optional<ClockFit> before;
-  for (const Trajectory& recorded : runs) {
-    require_samples(recorded, clock_known);
+  for (const Trajectory& original : runs) {
+    require_samples(original, clock_known);
+    const std::shared_ptr<const Trajectory> turned = turned_by_slips(original, loaded);
+    const Trajectory& recorded = turned ? *turned : original;
     Clocked found;
     if (!clock_known) {
       found = clocked(recorded, loaded, before);
@@ -457,10 +461,11 @@ PreparedRuns prepare(std::span<const Trajectory> runs, const WheelFactors& loade
       before = found.clock;
       prepared.mended.insert(prepared.mended.end(), found.mended.begin(), found.mended.end());
     }
+    if (!found.retimed) found.retimed = turned;
     const Trajectory& run = found.retimed ? *found.retimed : recorded;
     const ClockFit& clock = found.clock;
     PreparedRun ready = cropped(run, clock, loaded.b_m, density);
-    ready.retimed = found.retimed;
+    ready.mended = found.retimed;
     say_bridged(run, ready.gaps, prepared.mended);
     const std::vector<WheelState> wheels = wheels_at_truth(ready, clock);
     classify_motion(ready, wheels, clock, loaded);

@@ -17,6 +17,7 @@ void add_calibrate(console::Command app) {
   add_calibrate_runs(command);
   add_calibrate_files(command);
   add_calibrate_bag(command);
+  add_calibrate_gyro(command);
   add_calibrate_end_poses(command);
   add_calibrate_check(command);
   add_calibrate_export(command);

@@ -36,6 +36,7 @@ void add_calibrate_bag(console::Command calibrate) {
   command.add_option("bags", options->import.wheels, "a bag for each drive: .bag, .mcap, .db3 or a folder")
       .required();
   add_bag_choices(command, options->import);
+  add_bag_truth_choices(command, options->import);
   add_tracker_choices(command, options->import);
   add_geometry_choices(command, options->import);
   add_session_flag(command, options->import.session_per_folder);

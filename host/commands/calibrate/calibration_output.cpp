@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,13 +25,21 @@ namespace astro::commands {
 namespace {
 
 std::string gyro_text(const experiment::GyroResult& gyro) {
+  constexpr double kSurely = 2;  // standard errors
   std::string text = '\n' + wrapped(experiment::gyro_sentence(gyro));
-  for (const std::string& slip : experiment::slip_sentences(gyro))
-    text += wrapped("Take care: " + slip + '.');
-  return text;
+  if (gyro.parameter && std::abs(gyro.scale.scale - 1) > kSurely * gyro.scale.se)
+    text += wrapped(fmt::format("To load it: 'astrolabe params set gyro_scale={:.5f}'.", *gyro.parameter));
+  return text + slips_text(gyro.against_wheels, gyro.names);
 }
 
 }  // namespace
+
+std::string slips_text(const calibration::GyroAgainstWheels& wheels, const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& slip : experiment::slip_sentences(wheels, names))
+    text += wrapped("Take care: " + slip + '.');
+  return text;
+}
 
 std::optional<experiment::GyroResult> gyro_of(const experiment::RunSet& set,
                                               const experiment::Calibration& found) {
@@ -65,7 +74,8 @@ void put_out(const experiment::Calibration& found, const CalibrationOutput& outp
     report::ReportInput input = make_report();
     if (gyro) {
       input.notes.push_back(experiment::gyro_sentence(*gyro));
-      for (const std::string& slip : experiment::slip_sentences(*gyro)) input.notes.push_back(slip + '.');
+      for (const std::string& slip : experiment::slip_sentences(gyro->against_wheels, gyro->names))
+        input.notes.push_back(slip + '.');
     }
     report::write_report(output.report, input);
     console::say("report: " + std::filesystem::absolute(output.report).string());
@@ -92,10 +102,7 @@ void put_out(const experiment::Calibration& found, const experiment::RunSet& set
       found, output,
       [&] {
         if (found.ml() != nullptr) return importing::drive_report(set, found);
-        std::vector<lidar::ScannedDrive> drives;
-        for (std::size_t i = 0; i < set.runs.size(); ++i)
-          drives.push_back(experiment::scanned_drive(set.runs[i], set.names[i]));
-        return experiment::scan_report(found, drives, false);
+        return experiment::scan_report(found, experiment::scanned_drives(set), false);
       },
       gyro_of(set, found));
 }

@@ -18,6 +18,8 @@ void add_calibrate_runs(console::Command calibrate);
 void add_calibrate_files(console::Command calibrate);
 /// `calibrate bag`: from bags of ROS 2 that hold wheels and ground truth.
 void add_calibrate_bag(console::Command calibrate);
+/// `calibrate gyro`: from wheels and a gyro alone, without ground truth.
+void add_calibrate_gyro(console::Command calibrate);
 /// `calibrate end-poses`: from measured end-pose errors of squares.
 void add_calibrate_end_poses(console::Command calibrate);
 /// `calibrate check`: the odometry errors of calibrations on recorded drives.

@@ -188,6 +188,9 @@ void add_bag_choices(console::Command command, ImportOptions& options) {
                   "the wheels)")
       .type_name("AXIS")
       .check(is_axis());
+}
+
+void add_bag_truth_choices(console::Command command, ImportOptions& options) {
   command.add_option("--truth-topic", options.truth_topic, "bags: the topic of the tracker's poses")
       .type_name("TOPIC");
   command.add_option("--truth-frames", options.frames, "bags: the frames of a transform")
@@ -243,6 +246,7 @@ void add_import(console::Command command, ImportOptions& options) {
   add_drive_files(command, options);
   add_table_choices(command, options);
   add_bag_choices(command, options);
+  add_bag_truth_choices(command, options);
   add_body_choice(command, options);
   add_tracker_choices(command, options);
   add_geometry_choices(command, options);
@@ -306,15 +310,20 @@ experiment::RunSet read_filmed_drives(const ImportOptions& options) {
   if (!options.up.empty() || !options.unit.empty() || options.mirrored != "auto" || !options.body.empty())
     throw console::WrongUsage("--up, --truth-unit, --truth-mirrored and --body do not apply to films");
   refuse_unused_choices(options);
-  importing::ImportedDrives drives =
-      stated([&] { return importing::import_wheels(options.wheels, importing::choices_of(options)); });
-  say_drives(drives);
-  if (options.session_per_folder) drives.set.sessions = experiment::sessions_by_folder(options.wheels);
-  give_films(drives.set, options);
-  return std::move(drives.set);
+  experiment::RunSet set = read_wheel_files(options);
+  if (options.session_per_folder) set.sessions = experiment::sessions_by_folder(options.wheels);
+  give_films(set, options);
+  return set;
 }
 
 }  // namespace
+
+experiment::RunSet read_wheel_files(const ImportOptions& options) {
+  importing::ImportedDrives drives =
+      stated([&] { return importing::import_wheels(options.wheels, importing::choices_of(options)); });
+  say_drives(drives);
+  return std::move(drives.set);
+}
 
 experiment::RunSet read_drive_files(const ImportOptions& options) {
   require_film_for(options.film_figures, !options.films().empty());

@@ -27,6 +27,7 @@ void add_drive_files(console::Command command, ImportOptions& options);
 /// Options for reading files of these kinds. What they leave open is recognised, or an error asks for it.
 void add_table_choices(console::Command command, ImportOptions& options);
 void add_bag_choices(console::Command command, ImportOptions& options);
+void add_bag_truth_choices(console::Command command, ImportOptions& options);
 void add_body_choice(console::Command command, ImportOptions& options);
 void add_tracker_choices(console::Command command, ImportOptions& options);
 void add_geometry_choices(console::Command command, ImportOptions& options);
@@ -48,5 +49,8 @@ void add_import(console::Command command, ImportOptions& options);
 /// Reads them, and says about each drive what was found and inferred. Throws console::WrongUsage, in words of the options, for
 /// what importing::import_stated refuses of the statements, and what else it throws.
 experiment::RunSet read_drive_files(const ImportOptions& options);
+
+/// The same of the wheels alone: the runs have no truth.
+experiment::RunSet read_wheel_files(const ImportOptions& options);
 
 }  // namespace astro::commands

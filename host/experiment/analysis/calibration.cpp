@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "host/base/error.hpp"
@@ -224,12 +225,12 @@ Calibration by_ml(Phases phases, const MlChoice& choice) {
 Calibration by_scans(Phases phases) {
   const Recordings& first = *phases.front();
   std::vector<lidar::ScannedDrive> drives;
-  for (const auto& phase : phases)
-    for (std::size_t i = 0; i < phase->runs().size(); ++i) {
-      const recording::Run& run = phase->runs()[i];
-      require_comparable(first.runs().front().info, first.names().front(), run.info, phase->names()[i]);
-      drives.push_back(scanned_drive(run, phase->names()[i]));
-    }
+  for (const auto& phase : phases) {
+    for (std::size_t i = 0; i < phase->runs().size(); ++i)
+      require_comparable(first.runs().front().info, first.names().front(), phase->runs()[i].info,
+                         phase->names()[i]);
+    std::ranges::move(scanned_drives(phase->set()), std::back_inserter(drives));
+  }
   Calibration result =
       calibration_of(lidar::calibrate_by_scans(drives, last_loaded(phases)), truth_scale_sigma(phases));
   result.robot = identity_of(first.runs().front().info);

@@ -18,12 +18,19 @@ namespace astro::experiment {
 /// odometry sample. The rates of our own robots are those without the bias and the scale that the robot knew.
 calibration::GyroDrive gyro_drive(const recording::Run& run, const std::string& name);
 
+/// Where the robot of each run turned without its wheels, on the clock of its trajectory: by the gyro, with the factors that the first
+/// run had loaded. Nothing where no gyro can be compared with the wheels.
+std::vector<std::vector<calibration::Slip>> slips_by_gyro(const RunSet& set);
+
 struct GyroResult {
   calibration::GyroAgainstWheels against_wheels;  // with the factors found
   /// The turn that the gyro measures over the true one: by the truth's headings where a tracker followed the drives, otherwise by the
   /// wheels with the factors found, whose error is part of it. Of our own robots on top of the scale that was loaded.
   calibration::GyroScale scale;
   bool by_truth = false;
+  /// What our own robot should have as its parameter gyro_scale: the loaded one times `scale`. Nothing of other robots, if drives had
+  /// different ones, or if the gyro turns the other way, which is a matter of gyro_axis.
+  std::optional<double> parameter;
   std::vector<std::string> names;  // of the drives
 };
 
@@ -31,10 +38,27 @@ struct GyroResult {
 /// calibration::GyroProblem.
 std::optional<GyroResult> calibrate_gyro(const RunSet& set, const Calibration& found);
 
+/// What wheels and gyro show without any ground truth. The scale S of the wheels is that of the loaded factors.
+struct GyroAlone {
+  calibration::GyroAgainstWheels against_wheels;
+  calibration::WheelFactors loaded, factors;  // the wheelbase if the gyro's scale is right
+  double E_d_se = 0;
+  double b_se_m = 0;               // with the error of the gyro's scale
+  std::vector<std::string> names;  // of the drives
+};
+
+/// `scale_error`: relative standard error of the gyro's scale. Throws astro::Error of a calibration::GyroProblem.
+GyroAlone factors_by_gyro(const RunSet& set, double scale_error);
+
+nlohmann::json to_json(const GyroAlone& result);
+
 /// Scale, lag and bias in a few sentences.
 std::string gyro_sentence(const GyroResult& result);
-/// Where robot and wheels parted, each with its drive, time and place; empty if nowhere.
-std::vector<std::string> slip_sentences(const GyroResult& result);
+/// Lag and bias.
+std::string timing_sentence(const calibration::GyroAgainstWheels& wheels);
+/// Where robot and wheels parted, each with its drive, time and place; empty if nowhere. `names`: of the drives.
+std::vector<std::string> slip_sentences(const calibration::GyroAgainstWheels& wheels,
+                                        const std::vector<std::string>& names);
 
 nlohmann::json to_json(const GyroResult& result);
 

@@ -180,7 +180,8 @@ nlohmann::json scans_json(const lidar::ScanCalibration& found) {
         {"matched", counts.matched},
         {"one_direction", counts.degenerate},
         {"unmatched", counts.unmatched},
-        {"gaps", counts.gaps}}},
+        {"gaps", counts.gaps},
+        {"slipped", counts.slipped}}},
       {"remarks", remarks}};
 }
 

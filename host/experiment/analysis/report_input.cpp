@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -58,8 +59,7 @@ std::vector<lidar::ScannedDrive> drives_before(const Results& results) {
   const std::size_t calibrated = results.phases.size() - (results.not_loaded() != nullptr ? 0 : 1);
   std::vector<lidar::ScannedDrive> drives;
   for (const PhaseResult& phase : std::span(results.phases).first(calibrated))
-    for (const recording::Run& run : phase.runs())
-      drives.push_back(scanned_drive(run, recording::run_name(run.info)));
+    std::ranges::move(scanned_drives(phase.recordings->set()), std::back_inserter(drives));
   return drives;
 }
 

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <utility>
 
+#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/experiment/analysis/squares.hpp"
 #include "host/experiment/analysis/trajectories.hpp"
 #include "host/lidar/scan_path.hpp"
 #include "host/recording/run_metadata.hpp"
 
 namespace astro::experiment {
+namespace {
 
 lidar::ScannedDrive scanned_drive(const recording::Run& run, const std::string& name) {
   constexpr std::int64_t kNanosPerMicro = 1000;
@@ -18,6 +20,17 @@ lidar::ScannedDrive scanned_drive(const recording::Run& run, const std::string& 
             for (const lidar::Scan& scan : run.scans) handle(scan);
           },
           true};
+}
+
+}  // namespace
+
+std::vector<lidar::ScannedDrive> scanned_drives(const RunSet& set) {
+  std::vector<lidar::ScannedDrive> drives;
+  for (std::size_t i = 0; i < set.runs.size(); ++i)
+    drives.push_back(scanned_drive(set.runs[i], set.names[i]));
+  const std::vector<std::vector<calibration::Slip>> slips = slips_by_gyro(set);
+  for (std::size_t i = 0; i < slips.size(); ++i) drives[i].slips = slips[i];
+  return drives;
 }
 
 void give_truth_by_scans(recording::Run& run) {

@@ -13,6 +13,7 @@
 #include "host/base/error.hpp"
 #include "host/base/utc.hpp"
 #include "host/experiment/analysis/analysis_problem.hpp"
+#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/experiment/analysis/loaded_parameter.hpp"
 #include "host/experiment/files/same_number.hpp"
 
@@ -97,28 +98,33 @@ bool has_moving_truth(const recording::RunInfo& info) {
          info.truth_clock != "start and end of the run";
 }
 
+std::vector<calibration::WheelSample> wheels_of(const recording::Run& run, const std::string& name) {
+  if (run.odometry.empty())
+    throw Error(fmt::format("the recording '{}' holds no odometry", name), AnalysisProblem::no_odometry,
+                {name});
+  const double metres_per_count = nominal_wheel(run.info, name).metres_per_count();
+  std::vector<calibration::WheelSample> wheels;
+  Travel left, right;
+  Clock robot(run.odometry.front().time_us, name, "odometry");
+  for (const recording::OdometrySample& sample : run.odometry)
+    if (robot.advances(sample.time_us))
+      wheels.push_back({robot.seconds(), left.advance(sample.left_counts, metres_per_count),
+                        right.advance(sample.right_counts, metres_per_count)});
+  return wheels;
+}
+
 calibration::Trajectory trajectory_of(const recording::Run& run, const std::string& name) {
   if (!has_moving_truth(run.info))
     throw Error(
         fmt::format("nothing followed the robot while '{}' was recorded, and maximum likelihood needs that",
                     name),
         AnalysisProblem::run_without_truth, {name});
-  if (run.odometry.empty())
-    throw Error(fmt::format("the recording '{}' holds no odometry", name), AnalysisProblem::no_odometry,
-                {name});
   calibration::Trajectory trajectory;
   trajectory.name = name;
   trajectory.started_s = started_s(run);
-  const NominalWheel wheel = nominal_wheel(run.info, name);
-  const double metres_per_count = wheel.metres_per_count();
-  trajectory.wheel_turn_m = std::numbers::pi * wheel.diameter_m;
-  const std::int64_t origin_us = run.odometry.front().time_us;
-  Travel left, right;
-  Clock robot(origin_us, name, "odometry"), tracker(origin_us, name, "ground truth");
-  for (const recording::OdometrySample& sample : run.odometry)
-    if (robot.advances(sample.time_us))
-      trajectory.wheels.push_back({robot.seconds(), left.advance(sample.left_counts, metres_per_count),
-                                   right.advance(sample.right_counts, metres_per_count)});
+  trajectory.wheels = wheels_of(run, name);
+  trajectory.wheel_turn_m = std::numbers::pi * nominal_wheel(run.info, name).diameter_m;
+  Clock tracker(run.odometry.front().time_us, name, "ground truth");
   for (const recording::TruthSample& sample : run.truth)
     if (sample.valid && tracker.advances(sample.time_us))
       trajectory.truth.push_back({tracker.seconds(), sample.x_m, sample.y_m, sample.theta_rad});
@@ -134,12 +140,15 @@ std::vector<calibration::Trajectory> trajectories_of(const RunSet& set) {
 }
 
 void extend_trajectories(std::vector<calibration::Trajectory>& trajectories, const RunSet& set) {
+  if (trajectories.size() == set.runs.size()) return;
   for (std::size_t i = trajectories.size(); i < set.runs.size(); ++i) {
     calibration::Trajectory trajectory = trajectory_of(set.runs[i], set.names[i]);
     require_comparable(set.runs.front().info, set.names.front(), set.runs[i].info, set.names[i]);
     if (!set.sessions.empty()) trajectory.session = set.sessions[i];
     trajectories.push_back(std::move(trajectory));
   }
+  const std::vector<std::vector<calibration::Slip>> slips = slips_by_gyro(set);
+  for (std::size_t i = 0; i < slips.size(); ++i) trajectories[i].slips = slips[i];
 }
 
 void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,

@@ -38,15 +38,17 @@ NominalWheel nominal_wheel(const recording::RunInfo& info, const std::string& na
 /// and to files that give only both ends.
 bool has_moving_truth(const recording::RunInfo& info);
 
-/// A run of any kind. Times are seconds since its first odometry sample on both clocks; wheel travel comes
-/// from the counts, in which the robot has applied its encoder polarity and which may wrap; truth samples
-/// that are not valid are left out.
+/// The wheels of a run of any kind. Times are seconds since its first odometry sample; travel comes from the counts, in which the robot
+/// has applied its encoder polarity and which may wrap. Throws astro::Error, calling the run `name`: no odometry, times that run
+/// backwards (the robot restarted), a recording that does not name the nominal wheel.
+std::vector<calibration::WheelSample> wheels_of(const recording::Run& run, const std::string& name);
+
+/// A run of any kind, both of whose clocks begin with its first odometry sample; truth samples that are not valid are left out.
 ///
-/// Throws astro::Error, calling the run `name`: no moving truth, no odometry, times that run backwards (the
-/// robot restarted), a recording that does not name the nominal wheel.
+/// Throws astro::Error as wheels_of does, and if it has no moving truth.
 calibration::Trajectory trajectory_of(const recording::Run& run, const std::string& name);
 
-/// All of them. Throws astro::Error also as require_comparable does.
+/// All of them, with the slips that their robots' gyros show. Throws astro::Error also as require_comparable does.
 std::vector<calibration::Trajectory> trajectories_of(const RunSet& set);
 
 /// The same where the first runs of the set are converted already: appends the others to `trajectories`.

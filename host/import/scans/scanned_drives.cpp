@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/experiment/analysis/squares.hpp"
 #include "host/formats/files/bag.hpp"
 #include "host/import/scans/bag_scans.hpp"
@@ -94,6 +95,8 @@ void read_runs(std::span<const DriveFiles> files, const ImportChoices& choices, 
   all.loaded = experiment::loaded_factors(last, imported.set.names.back());
   all.wheel = experiment::nominal_wheel(last, imported.set.names.back());
   all.set = std::move(imported.set);
+  const std::vector<std::vector<calibration::Slip>> slips = experiment::slips_by_gyro(all.set);
+  for (std::size_t i = 0; i < slips.size(); ++i) all.drives[i].slips = slips[i];
 }
 
 }  // namespace

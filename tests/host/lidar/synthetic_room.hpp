@@ -113,6 +113,17 @@ class SyntheticDrive {
     for (const Leg& leg : legs) drive(leg);
   }
 
+  /// Turns the robot within a tenth of a second, in which its wheels stand.
+  calibration::Slip kick(double turn_rad) {
+    constexpr int kSteps = 10;
+    const double begin_s = wheels_.back().time_s;
+    for (int step = 0; step < kSteps; ++step) {
+      pose_.theta_rad += turn_rad / kSteps;
+      note();
+    }
+    return {begin_s, wheels_.back().time_s, turn_rad};
+  }
+
   const Pose2& pose() const { return pose_; }
 
   /// Its scans are made anew each time that they are read, with the same noise.

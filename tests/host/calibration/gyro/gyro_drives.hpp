@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -41,9 +43,16 @@ inline GyroDrive with_gyro(Trajectory run, const GyroModel& gyro, std::uint64_t 
   for (std::size_t k = 1; k < run.truth.size(); ++k)
     run.truth[k].theta_rad =
         run.truth[k - 1].theta_rad + wrapped_rad(run.truth[k].theta_rad - run.truth[k - 1].theta_rad);
-  if (kick.time_s >= 0)
-    for (BodySample& body : run.truth)
-      body.theta_rad += kick.turn_rad * std::clamp((body.time_s - kick.time_s) / kKick_s, 0.0, 1.0);
+  if (kick.time_s >= 0) {
+    const auto kicked = std::ranges::lower_bound(run.truth, kick.time_s, {}, &BodySample::time_s);
+    const Pose2 place{kicked->x_m, kicked->y_m, 0};
+    for (BodySample& body : std::span(kicked, run.truth.end())) {
+      const double turn_rad = kick.turn_rad * std::min(1.0, (body.time_s - kick.time_s) / kKick_s);
+      const Pose2 now = Pose2{place.x_m, place.y_m, turn_rad} *
+                        Pose2{body.x_m - place.x_m, body.y_m - place.y_m, body.theta_rad};
+      body = {body.time_s, now.x_m, now.y_m, body.theta_rad + turn_rad};
+    }
+  }
   const auto heading_rad = [&](double time_s) {
     std::size_t k = 1;
     const double per_s =

@@ -1,5 +1,6 @@
 #include "host/experiment/analysis/gyro_runs.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "host/experiment/analysis/trajectories.hpp"
 #include "tests/host/calibration/gyro/gyro_drives.hpp"
+#include "tests/support/base/remarks.hpp"
 
 // The gyro of recorded runs.
 namespace astro::experiment {
@@ -15,18 +17,18 @@ namespace {
 using calibration::GyroDrive;
 using calibration::GyroModel;
 
-constexpr double kDiameter_m = 0.072, kCounts = 2803.2;
-constexpr std::int64_t kStart_us = 5'000'000;
+constexpr double kWheelDiameter_m = 0.072, kWheelCounts = 2803.2;
+constexpr std::int64_t kFirst_us = 5'000'000;
 
-std::int64_t micros(double time_s) { return kStart_us + std::llround(1e6 * time_s); }
+std::int64_t micros(double time_s) { return kFirst_us + std::llround(1e6 * time_s); }
 
 /// As an importer makes a run: the tracker's clock is ahead by `ahead_s`.
 recording::Run run_of(const GyroDrive& drive, double ahead_s) {
   recording::Run run;
   run.info.truth_source = "file";
   run.info.truth_clock = "tracker";
-  run.info.parameters = {{"wheel_diameter", kDiameter_m},
-                         {"counts_per_motor_rev", kCounts},
+  run.info.parameters = {{"wheel_diameter", kWheelDiameter_m},
+                         {"counts_per_motor_rev", kWheelCounts},
                          {"gear_numerator", 1},
                          {"gear_denominator", 1},
                          {"c_R", 1},
@@ -70,7 +72,7 @@ TEST(GyroRuns, GiveTheScaleByATrackerWhoseClockIsItsOwn) {
   EXPECT_NEAR(found->scale.scale, gyro.scale, 4 * found->scale.se);
   EXPECT_LT(found->scale.se, 5e-4);
   EXPECT_NEAR(found->against_wheels.lag_s, gyro.lag_s, 4 * found->against_wheels.lag_se_s);
-  EXPECT_THAT(slip_sentences(*found), testing::IsEmpty());
+  EXPECT_THAT(slip_sentences(found->against_wheels, found->names), testing::IsEmpty());
   EXPECT_THAT(gyro_sentence(*found), testing::HasSubstr("clockwise instead of counter-clockwise"));
   const nlohmann::json json = to_json(*found);
   EXPECT_EQ(json["sign"], -1);
@@ -88,6 +90,25 @@ TEST(GyroRuns, DoNotChangeTheFactorsOfTheWheels) {
   EXPECT_FALSE(calibrate_gyro(set, without));
 }
 
+TEST(GyroRuns, ShowWithoutTruthHowTheWheelsDifferAndTheWheelbaseAsWellAsTheScaleIsKnown) {
+  const GyroModel gyro{.scale = -1.004};
+  RunSet set = runs_of(calibration::gyro_squares(gyro, 15));
+  for (recording::Run& run : set.runs) run.truth.clear();
+  const GyroAlone found = factors_by_gyro(set, 0.005);
+  const calibration::WheelFactors actual = calibration::gyro_robot().actual;
+  EXPECT_NEAR(found.factors.c_r / found.factors.c_l, actual.c_r / actual.c_l, 4 * found.E_d_se);
+  EXPECT_LT(found.E_d_se, 5e-4);
+  EXPECT_DOUBLE_EQ(found.factors.c_r + found.factors.c_l, 2) << "what does not show stays as it was loaded";
+  const double scale = (actual.c_r + actual.c_l) / 2;
+  EXPECT_NEAR(found.factors.b_m, actual.b_m / scale, 2 * found.b_se_m);
+  EXPECT_NEAR(found.b_se_m, 0.005 * found.factors.b_m, 0.0005 * found.factors.b_m)
+      << "the gyro's scale is most of it";
+  EXPECT_EQ(to_json(found)["slips"].size(), 0U);
+  for (recording::Run& run : set.runs) run.yaw_rates.clear();
+  EXPECT_EQ(support::told_by([&] { factors_by_gyro(set, 0.005); }).kind,
+            Kind(calibration::GyroProblem::no_rates));
+}
+
 TEST(GyroRuns, TellWhereTheRobotWasKicked) {
   const GyroModel gyro;
   std::vector<GyroDrive> drives = calibration::gyro_squares(gyro, 13);
@@ -97,8 +118,37 @@ TEST(GyroRuns, TellWhereTheRobotWasKicked) {
   const auto found = calibrate_gyro(set, calibrated(set));
   ASSERT_TRUE(found);
   ASSERT_EQ(found->against_wheels.slips.size(), 1U);
-  EXPECT_THAT(slip_sentences(*found).front(),
+  EXPECT_THAT(slip_sentences(found->against_wheels, found->names).front(),
               testing::StartsWith(drives[2].name + ": by its gyro the robot turned by "));
+}
+
+TEST(GyroRuns, LeaveTheStretchesOfKicksOutOfTheFit) {
+  const GyroModel gyro;
+  std::vector<GyroDrive> drives = calibration::gyro_squares(gyro, 14);
+  const Calibration calm = calibrated(runs_of(drives));
+  const std::vector<calibration::Trajectory> runs =
+      calibration::squares(calibration::gyro_robot(), 10, 2, 14);
+  for (const std::size_t kicked : {1U, 4U, 8U})
+    drives[kicked] = calibration::with_gyro(runs[kicked], gyro, 1400 + kicked,
+                                            {7 + static_cast<double>(kicked), 12 * calibration::kDegree_rad});
+  RunSet set = runs_of(drives);
+  const Calibration with = calibrated(set);
+  for (recording::Run& run : set.runs) run.yaw_rates.clear();
+  const Calibration without = calibrated(set);
+  const auto off = [&](const Calibration& found) {
+    return std::hypot((found.factors.c_r - calm.factors.c_r) / calm.se.c_r,
+                      (found.factors.c_l - calm.factors.c_l) / calm.se.c_l,
+                      (found.factors.b_m - calm.factors.b_m) / calm.se.b_m);
+  };
+  const auto jolts = [](const Calibration& found) {
+    std::size_t count = 0;
+    for (const calibration::RunFit& run : found.ml()->estimate.runs) count += run.slip_events.size();
+    return count;
+  };
+  fmt::print("off by {:.2f} standard errors with a gyro, by {:.2f} without one\n", off(with), off(without));
+  EXPECT_LT(off(with), 0.5) << "three seconds of ten drives are left out";
+  EXPECT_EQ(jolts(with), 0U) << "nothing is left to find";
+  EXPECT_GE(jolts(without), 3U);
 }
 
 }  // namespace
