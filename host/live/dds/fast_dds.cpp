@@ -8,8 +8,14 @@
 #include <fastdds/dds/log/StdoutErrConsumer.hpp>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
 #include <list>
 #include <map>
+#include <mutex>
+#include <random>
 #include <set>
 #include <utility>
 #include <vector>
@@ -83,6 +89,50 @@ void set_times(rtps::DiscoverySettings& settings) {
                                     eprosima::fastrtps::Duration_t(kFirstAnnouncementPeriod_s)};
 }
 
+/// The lowest number that no other participant of this process has. Those who look for others without multicast look at the ports of
+/// low numbers alone, and by itself Fast DDS numbers on and on, however many participants have gone.
+class ParticipantNumber {
+ public:
+  ParticipantNumber() {
+    const std::lock_guard lock(mutex());
+    while (!taken().insert(number_).second) ++number_;
+  }
+  ~ParticipantNumber() {
+    const std::lock_guard lock(mutex());
+    taken().erase(number_);
+  }
+  ParticipantNumber(const ParticipantNumber&) = delete;
+  ParticipantNumber& operator=(const ParticipantNumber&) = delete;
+
+  std::int32_t value() const { return number_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  static std::set<std::int32_t>& taken() {
+    static std::set<std::int32_t> numbers;
+    return numbers;
+  }
+
+  std::int32_t number_ = 1;
+};
+
+/// As Fast DDS makes them, but for the last part, which it takes from the number: nobody may take a participant for one of the same
+/// number that has gone.
+rtps::GuidPrefix_t new_guid_prefix() {
+  static const std::array<std::uint32_t, 2> process{std::random_device()(), std::random_device()()};
+  static std::atomic<std::uint32_t> count = 0;
+  const std::uint32_t own = ++count;
+  rtps::GuidPrefix_t prefix;
+  std::memcpy(prefix.value, process.data(), sizeof process);
+  std::memcpy(prefix.value + sizeof process, &own, sizeof own);
+  prefix.value[0] = rtps::c_VendorId_eProsima[0];
+  prefix.value[1] = rtps::c_VendorId_eProsima[1];
+  return prefix;
+}
+
 /// How a participant of this name looks for others, and where it can be reached. It sends nothing before the gate opens.
 /// Throws astro::Error naming a static peer that has no address.
 fast::DomainParticipantQos participant_settings(const Discovery& discovery, const std::string& name,
@@ -113,6 +163,8 @@ class OneParticipant {
     const auto gate = std::make_shared<Gate>();
     fast::DomainParticipantQos qos = participant_settings(discovery, name, gate, acknowledged_);
     qos.user_data().data_vec(octets(user_data));
+    qos.wire_protocol().participant_id = number_.value();
+    qos.wire_protocol().prefix = new_guid_prefix();
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<std::uint32_t>(discovery.domain), qos, &others, fast::StatusMask::none());
     if (participant_ == nullptr)
@@ -148,6 +200,7 @@ class OneParticipant {
   fast::Subscriber& subscriber() { return *subscriber_; }
 
  private:
+  ParticipantNumber number_;
   std::shared_ptr<AcknowledgedBy> acknowledged_ = std::make_shared<AcknowledgedBy>();
   fast::DomainParticipant* participant_;
   fast::Publisher* publisher_;

@@ -66,6 +66,16 @@ TEST(FastDds, BytesComeToAnotherParticipantAsTheyWereWritten) {
   EXPECT_FALSE(samples[0].related);
 }
 
+TEST(FastDds, ParticipantsFindEachOtherHoweverManyHaveGone) {
+  // Without multicast the others are looked for at the first 32 numbers.
+  for (int gone = 0; gone < 40; ++gone) open();
+  const auto here = open(), there = open();
+  EXPECT_NE(here->guid(), there->guid());
+  const auto writer = here->create_writer(topic_of());
+  const auto reader = there->create_reader(topic_of());
+  EXPECT_TRUE(eventually(*there, [&] { return !writer->readers().empty() && !reader->writers().empty(); }));
+}
+
 TEST(FastDds, WhoComesLateGetsTheLastSampleOfALatchedTopicAndNothingOfAnother) {
   const auto here = open();
   Topic latched = topic_of();
