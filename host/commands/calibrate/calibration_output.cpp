@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -72,11 +74,7 @@ void put_out(const experiment::Calibration& found, const CalibrationOutput& outp
   }
   if (!output.report.empty()) {
     report::ReportInput input = make_report();
-    if (gyro) {
-      input.notes.push_back(experiment::gyro_sentence(*gyro));
-      for (const std::string& slip : experiment::slip_sentences(gyro->against_wheels, gyro->names))
-        input.notes.push_back(slip + '.');
-    }
+    if (gyro) std::ranges::move(experiment::notes_of(*gyro), std::back_inserter(input.notes));
     report::write_report(output.report, input);
     console::say("report: " + std::filesystem::absolute(output.report).string());
   }

@@ -152,6 +152,13 @@ std::vector<std::string> slip_sentences(const calibration::GyroAgainstWheels& wh
   return sentences;
 }
 
+std::vector<std::string> notes_of(const GyroResult& result) {
+  std::vector<std::string> notes{gyro_sentence(result)};
+  for (const std::string& slip : slip_sentences(result.against_wheels, result.names))
+    notes.push_back(slip + '.');
+  return notes;
+}
+
 namespace {
 
 nlohmann::json to_json(const calibration::GyroAgainstWheels& wheels, const std::vector<std::string>& names) {

@@ -60,6 +60,9 @@ std::string timing_sentence(const calibration::GyroAgainstWheels& wheels);
 std::vector<std::string> slip_sentences(const calibration::GyroAgainstWheels& wheels,
                                         const std::vector<std::string>& names);
 
+/// Both as notes of a report.
+std::vector<std::string> notes_of(const GyroResult& result);
+
 nlohmann::json to_json(const GyroResult& result);
 
 }  // namespace astro::experiment

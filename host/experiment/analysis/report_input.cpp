@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <span>
 #include <vector>
 
+#include "host/base/error.hpp"
+#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/analysis/method_text.hpp"
 #include "host/experiment/analysis/scan_figures.hpp"
@@ -54,11 +57,26 @@ std::vector<report::LoadedValue> loaded_of(const Results& results, std::size_t i
   return values;
 }
 
+std::span<const PhaseResult> calibrated_phases(const Results& results) {
+  return std::span(results.phases).first(results.phases.size() - (results.not_loaded() != nullptr ? 0 : 1));
+}
+
+/// What the gyro of the robot showed in the phases from which the last calibration was found.
+std::vector<std::string> gyro_notes(const Results& results, const Calibration& found) {
+  std::vector<std::string> notes;
+  for (const PhaseResult& phase : calibrated_phases(results)) try {
+      if (const auto gyro = calibrate_gyro(phase.recordings->set(), found))
+        std::ranges::move(notes_of(*gyro), std::back_inserter(notes));
+    } catch (const Error& error) {
+      notes.push_back(error.in("The gyro is not calibrated: ").sentence + '.');
+    }
+  return notes;
+}
+
 /// The drives from which the last calibration was found.
 std::vector<lidar::ScannedDrive> drives_before(const Results& results) {
-  const std::size_t calibrated = results.phases.size() - (results.not_loaded() != nullptr ? 0 : 1);
   std::vector<lidar::ScannedDrive> drives;
-  for (const PhaseResult& phase : std::span(results.phases).first(calibrated))
+  for (const PhaseResult& phase : calibrated_phases(results))
     std::ranges::move(scanned_drives(phase.recordings->set()), std::back_inserter(drives));
   return drives;
 }
@@ -91,6 +109,8 @@ report::ReportInput report_input(const Results& results) {
   input.not_loaded = not_loaded != nullptr;
   input.reason = (input.not_loaded ? "The factors found were not loaded. " : "") + judgement_sentence(*found);
   input.method = method_text(*found);
+  if (found->end_poses() == nullptr)
+    std::ranges::move(gyro_notes(results, *found), std::back_inserter(input.notes));
   if (found->scans() != nullptr) input.scans = scan_figures(*found->scans(), drives_before(results), false);
   return input;
 }
