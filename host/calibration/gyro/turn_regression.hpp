@@ -56,7 +56,7 @@ struct TurnRegression {
 
 /// `information`: what is known of the coefficients about 0 beforehand. Samples that are off by more than six deviations start a new
 /// phase: a slip, or a reference that went wrong. They are marked so in `drives`.
-/// Precondition: at least ten samples in all.
+/// Precondition: a sample that goes on from another one. With few samples the noise is that of the prior.
 /// Cost  about 60 passes over the samples.
 TurnRegression regress_turns(std::span<std::vector<TurnSample>> drives, const TurnVector& information,
                              const TurnNoisePrior& prior);
