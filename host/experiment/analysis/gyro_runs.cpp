@@ -25,6 +25,20 @@ std::vector<calibration::BodySample> headings(std::vector<calibration::BodySampl
   return truth;
 }
 
+struct ReferenceNames {
+  const char *in_json, *in_words;
+};
+ReferenceNames names_of(GyroReference by) {
+  switch (by) {
+    case GyroReference::truth:
+      return {"truth", "the headings of the ground truth"};
+    case GyroReference::wall:
+      return {"wall", "whole turns between two squarings against the wall"};
+    default:
+      return {"wheels", "the wheels with the factors found"};
+  }
+}
+
 /// The relative error of the wheelbase over the scale of both wheels, which is that of the wheels' turns.
 double turn_error(const Calibration& found) {
   const calibration::FactorCovariance& covariance =
@@ -62,10 +76,10 @@ std::optional<GyroResult> calibrate_gyro(const RunSet& set, const Calibration& f
     const calibration::Trajectory trajectory = trajectory_of(set.runs[i], set.names[i]);
     drives.back().truth = headings(trajectory.truth, trajectory, *found.ml());
   }
-  GyroResult result{calibration::compare_gyro(drives, found.factors), {}, false, set.names};
+  GyroResult result{calibration::compare_gyro(drives, found.factors), {}, GyroReference::wheels, set.names};
   const calibration::GyroAgainstWheels& wheels = result.against_wheels;
   const auto by_truth = calibration::gyro_scale_by_truth(drives, found.factors, wheels);
-  result.by_truth = by_truth.has_value();
+  if (by_truth) result.by = GyroReference::truth;
   result.scale = by_truth.value_or(calibration::GyroScale{
       wheels.product, std::hypot(wheels.product_se, wheels.product * turn_error(found)), wheels.chi_square,
       wheels.degrees_of_freedom});
@@ -79,8 +93,7 @@ std::string gyro_sentence(const GyroResult& result) {
       "than the "
       "encoders.",
       std::abs(result.scale.scale), result.scale.se,
-      result.scale.scale < 0 ? ", clockwise instead of counter-clockwise" : "",
-      result.by_truth ? "the headings of the ground truth" : "the wheels with the factors found",
+      result.scale.scale < 0 ? ", clockwise instead of counter-clockwise" : "", names_of(result.by).in_words,
       1000 * wheels.lag_s, 1000 * wheels.lag_se_s);
   std::vector<std::string> biases;
   for (const calibration::GyroBias& bias : wheels.biases)
@@ -120,7 +133,7 @@ nlohmann::json to_json(const GyroResult& result) {
   return {{"scale", number(std::abs(result.scale.scale))},
           {"scale_se", number(result.scale.se)},
           {"sign", result.scale.scale < 0 ? -1 : 1},
-          {"scale_by", result.by_truth ? "truth" : "wheels"},
+          {"scale_by", names_of(result.by).in_json},
           {"lag_s", number(wheels.lag_s)},
           {"lag_se_s", number(wheels.lag_se_s)},
           {"product", number(wheels.product)},

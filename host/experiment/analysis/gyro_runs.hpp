@@ -18,12 +18,15 @@ namespace astro::experiment {
 /// odometry sample. The rates of our own robots are those without the bias and the scale that the robot knew.
 calibration::GyroDrive gyro_drive(const recording::Run& run, const std::string& name);
 
+/// What shows the gyro's scale: the headings of a tracker; the wheels with the factors found, whose error is part of it; whole turns
+/// between two squarings against a wall.
+enum class GyroReference { truth, wheels, wall };
+
 struct GyroResult {
   calibration::GyroAgainstWheels against_wheels;  // with the factors found
-  /// The turn that the gyro measures over the true one: by the truth's headings where a tracker followed the drives, otherwise by the
-  /// wheels with the factors found, whose error is part of it. Of our own robots on top of the scale that was loaded.
+  /// The turn that the gyro measures over the true one. Of our own robots on top of the scale that was loaded.
   calibration::GyroScale scale;
-  bool by_truth = false;
+  GyroReference by = GyroReference::wheels;
   std::vector<std::string> names;  // of the drives
 };
 
