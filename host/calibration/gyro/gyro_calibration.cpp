@@ -312,7 +312,7 @@ std::optional<GyroScale> gyro_scale_by_truth(std::span<const GyroDrive> drives, 
 std::optional<GyroByHeadings> gyro_scale_by_headings(std::span<const GyroDrive> drives,
                                                      std::span<const std::vector<KnownHeading>> headings,
                                                      double heading_rad, const GyroAgainstWheels& compared) {
-  constexpr double kNearly = 0.5, kLeastTurn_rad = 2 * std::numbers::pi - 0.5;
+  constexpr double kWithinTwo = 1.4, kLeastTurn_rad = 2 * std::numbers::pi - 0.5;
   std::vector<std::vector<TurnSample>> samples;
   std::vector<std::string> names;
   double turned_rad = 0;
@@ -337,7 +337,7 @@ std::optional<GyroByHeadings> gyro_scale_by_headings(std::span<const GyroDrive> 
   const double scale = compared.product;
   const TurnNoisePrior prior{
       {compared.noise.gyro_rad2ps, kBias_rad2ps3, 0, scale * scale * heading_rad * heading_rad},
-      {kMeasured, kWalkRoughly, 0, kNearly}};
+      {kMeasured, kWalkRoughly, 0, kWithinTwo}};
   // Rate and way have no part in this. Any information keeps their coefficients at zero.
   const TurnRegression fit = regress_turns(samples, {0, 1, 1}, prior);
   // regress_turns counts three coefficients. Here there are the scale, and for each drive the bias.

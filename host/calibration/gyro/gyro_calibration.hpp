@@ -75,7 +75,7 @@ struct GyroByHeadings {
 
 /// The gyro's scale by a few headings of each drive, such as those of a robot that stands flush with a wall after whole turns. What it
 /// turned in between is integrated; its bias is what the time shows, and is separated from the scale by turns both ways round.
-/// `headings`: of each drive, in order of time and at rest. `heading_rad`: the standard error of each, known to a factor of 1.6.
+/// `headings`: of each drive, in order of time and at rest. `heading_rad`: the standard error of each, known to a factor of two.
 /// Nothing if the drives turn less than once.
 std::optional<GyroByHeadings> gyro_scale_by_headings(std::span<const GyroDrive> drives,
                                                      std::span<const std::vector<KnownHeading>> headings,
