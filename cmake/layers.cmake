@@ -80,7 +80,7 @@ set(ASTRO_LAYERS
   "host/truth/scanners          : host/base host/formats/messages host/lidar"
   "host/truth/source            : host/base host/lidar host/recording"
   "host/truth/trackers          : host/base host/formats/cdr host/formats/messages host/truth/source"
-  "host/wall                    : common host/base host/calibration/judgement host/calibration/motion host/experiment/analysis host/experiment/files host/robot/client host/robot/motion host/robot/parameters"
+  "host/wall                    : common host/base host/calibration/gyro host/calibration/judgement host/calibration/motion host/experiment/analysis host/experiment/files host/recording host/robot/client host/robot/motion host/robot/parameters"
   "host/page/calls              : host/base host/calibration/judgement host/experiment/analysis host/experiment/drive host/experiment/files host/formats/files host/formats/tables host/import/drives host/import/scans host/import/wheels host/lidar host/recording host/report host/robot/client host/simulation/robot host/truth/files host/truth/floor"
   "host/page/robot              : common host/base host/experiment/analysis host/experiment/drive host/experiment/files host/live/driver host/motor/bench host/motor/model host/page/calls host/recording host/robot/client host/robot/motion host/robot/parameters host/robot/sharing host/simulation/robot"
   "host/page/wasm               : host/base host/page/calls host/page/robot"

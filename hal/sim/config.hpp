@@ -30,6 +30,8 @@ struct Wiring {
 struct Body {
   double ahead_m = 0.1625, behind_m = 0.1625, width_m = 0.337;
   double front_turned_rad = 0;  // a front that is not mounted square to the axle; counter-clockwise positive
+  double front_play_rad =
+      0;  // standard deviation of that from one touch of a wall to the next: a loose bumper
 };
 
 /// A straight wall (wall.hpp).

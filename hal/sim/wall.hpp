@@ -31,26 +31,31 @@ class Wall {
  public:
   Wall(const WallConfig& config, const Body& body, std::uint64_t seed);
 
-  /// For a robot at this pose with this speed of its centre and this turning rate.
-  WallForce force(const Pose& pose, double v_mps, double omega_radps) const;
+  /// For a robot at this pose with this speed of its centre and this turning rate. A front with play settles anew once all corners
+  /// have been 3 cm from the wall.
+  WallForce force(const Pose& pose, double v_mps, double omega_radps);
 
   /// From the middle of the front to the wall, square to the wall: what a ruler shows. Negative inside it.
   double front_gap_m(const Pose& pose) const;
   /// The same for the middle of the rear.
   double rear_gap_m(const Pose& pose) const;
 
-  /// The heading of a robot whose front is flush with the wall if both are even.
+  /// The heading of a robot whose front, as it settled last, is flush with the wall if both are even.
   double flush_heading_rad() const;
 
  private:
   double gap_m(double x_m, double y_m) const;
   double height_m(double along_m) const;
   double gap_at_m(const Pose& pose, double ahead_m) const;
+  void settle_front();
 
   WallConfig config_;
   Body body_;
   std::uint64_t seed_;
   double out_x_, out_y_;  // unit vector across the wall, into the room
+  std::uint64_t touches_ = 0;
+  bool touched_ = false;  // since the front settled
+  double front_turned_rad_ = 0;
 };
 
 }  // namespace astro::sim

@@ -1,5 +1,6 @@
 #include "host/recording/telemetry_sample.hpp"
 
+#include <limits>
 #include <numbers>
 
 namespace astro::recording {
@@ -43,7 +44,10 @@ std::optional<GyroPose> NewGyroPoses::next(const protocol::Telemetry& telemetry)
   const std::optional<GyroPose> pose = gyro_pose(telemetry);
   if (!pose || pose->time_us == last_us_) return std::nullopt;
   last_us_ = pose->time_us;
-  return pose;
+  GyroPose recorded = *pose;
+  if (telemetry.fused.gyro != protocol::GyroState::running)
+    recorded.omega_radps = std::numeric_limits<double>::quiet_NaN();
+  return recorded;
 }
 
 GyroSlip to_sample(const protocol::SlipFound& found) {

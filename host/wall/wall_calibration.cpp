@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/experiment/analysis/json.hpp"
 #include "host/experiment/analysis/judgement_sentences.hpp"
 #include "host/experiment/files/factors_json.hpp"
@@ -75,6 +76,7 @@ nlohmann::json to_json(const WallResult& result, const WallJudgement& judgement)
   json["squarings"] = found.stretches.size() + result.journal.drive.size();
   json["driven_s"] = result.journal.driven_s;
   json["precise"] = result.reached;
+  if (result.gyro) json["gyro"] = experiment::to_json(*result.gyro);
   json["verdict"] = experiment::name_of(judgement.verdict);
   json["sentence"] = judgement.sentence();
   return json;

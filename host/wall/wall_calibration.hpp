@@ -13,7 +13,7 @@ namespace astro::wall {
 experiment::ParameterFile parameter_file_of(const WallResult& result, const WallJudgement& judgement);
 
 /// "method": "wall", factors and their errors, E_d, b / S and S, the loaded factors, how it was driven, and the verdict;
-/// numbers that do not exist are null.
+/// numbers that do not exist are null. "gyro" of a robot that uses one, as calibrations by other truth have it.
 nlohmann::json to_json(const WallResult& result, const WallJudgement& judgement);
 
 }  // namespace astro::wall

@@ -10,6 +10,10 @@
 
 namespace astro::wall {
 
+/// What a MoveRecorder takes.
+constexpr std::uint32_t kWithGyro =
+    protocol::Telemetry::kPose | protocol::Telemetry::kTwist | protocol::Telemetry::kFused;
+
 /// Notices that a robot which follows its set points pushes against something, because for 40 ms a wheel
 ///   has more voltage than its feed-forward needs for its set point and the steepest acceleration, by more than the push
 ///   limit; or
@@ -76,7 +80,7 @@ WallDriver::WallDriver(robot::Client& client, const WallRobot& robot, double pus
       push_V_(push_V),
       limits_(limits),
       hooks_(std::move(hooks)),
-      watch_(client, robot.count_m) {}
+      watch_(client, robot.count_m, robot.uses_gyro ? kWithGyro : 0) {}
 
 robot::DriveHooks WallDriver::drive_hooks(const ObstacleGuard* guard) const {
   robot::DriveHooks hooks;

@@ -73,11 +73,10 @@ double knowledge(double value, double usual, double factor) {
   return -off * off / 2;
 }
 
-double worth(const std::vector<Stretch>& stretches, const calibration::WheelFactors& loaded,
-             const WallNoise& noise, const WallNoise& usual) {
+/// Of a fit for `noise`: its posterior, as a logarithm.
+double worth(const HeadingFit& fit, const WallNoise& noise, const WallNoise& usual) {
   constexpr double kSlipWithin = 2, kSquaringWithin = 3;
-  return fit_headings(stretches, loaded, noise).log_likelihood +
-         knowledge(noise.K_m, usual.K_m, kSlipWithin) +
+  return fit.log_likelihood + knowledge(noise.K_m, usual.K_m, kSlipWithin) +
          knowledge(noise.squaring_rad, usual.squaring_rad, kSquaringWithin);
 }
 
@@ -122,6 +121,38 @@ WallNoise cautious(WallNoise noise) {
   return noise;
 }
 
+/// The fit for `likeliest`, with a and its covariance averaged over all noise that the drive does not rule out. Some twenty stretches
+/// know K and the error of a squaring so poorly that the fit for the likeliest alone would seem better than it is.
+HeadingFit averaged_fit(const std::vector<Stretch>& stretches, const calibration::WheelFactors& loaded,
+                        const WallNoise& usual, const WallNoise& likeliest) {
+  constexpr int kSteps = 3;
+  constexpr double kStep = 1.5;
+  HeadingFit average = fit_headings(stretches, loaded, likeliest);
+  const double best = worth(average, likeliest, usual);
+  double weights = 0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    for (int j = -kSteps; j <= kSteps; ++j) {
+      WallNoise noise = likeliest;
+      noise.K_m *= std::pow(kStep, i);
+      noise.squaring_rad *= std::pow(kStep, j);
+      const HeadingFit fit = fit_headings(stretches, loaded, noise);
+      const double weight = std::exp(worth(fit, noise, usual) - best);
+      const Eigen::Vector2d off = fit.a - average.a;
+      weights += weight;
+      sum += weight * off;
+      squares += weight * (fit.covariance + off * off.transpose());
+    }
+  }
+  const Eigen::Vector2d off = sum / weights;
+  average.a += off;
+  average.covariance = squares / weights - off * off.transpose();
+  for (std::size_t i = 0; i < stretches.size(); ++i)
+    average.residual_rad[i] -= row_of(stretches[i].travel).dot(off);
+  return average;
+}
+
 }  // namespace
 
 HeadingFit fit_headings(const std::vector<Stretch>& stretches, const calibration::WheelFactors& loaded,
@@ -156,7 +187,10 @@ double heading_variance(const WheelTravel& travel, const HeadingFit& fit, const 
 WallNoise noise_of(const std::vector<Stretch>& stretches, const calibration::WheelFactors& loaded,
                    const WallNoise& usual) {
   WallNoise best = usual;
-  double best_worth = worth(stretches, loaded, best, usual);
+  const auto worth_of = [&](const WallNoise& noise) {
+    return worth(fit_headings(stretches, loaded, noise), noise, usual);
+  };
+  double best_worth = worth_of(best);
   for (const double step : {2.0, 1.4, 1.15, 1.05}) {
     const WallNoise middle = best;
     for (int i = -3; i <= 3; ++i) {
@@ -164,7 +198,7 @@ WallNoise noise_of(const std::vector<Stretch>& stretches, const calibration::Whe
         WallNoise noise = middle;
         noise.K_m *= std::pow(step, i);
         noise.squaring_rad *= std::pow(step, j);
-        const double now = worth(stretches, loaded, noise, usual);
+        const double now = worth_of(noise);
         if (!(now > best_worth)) continue;
         best = noise;
         best_worth = now;
@@ -178,8 +212,10 @@ WallEstimate estimate_wall(const WallDrive& drive, const calibration::WheelFacto
                            const WallNoise& usual) {
   WallEstimate result;
   result.stretches = stretches_of(drive, loaded, usual);
-  result.noise = result.stretches.size() < 3 ? usual : noise_of(result.stretches, loaded, usual);
-  result.headings = fit_headings(result.stretches, loaded, result.noise);
+  const bool shows_noise = result.stretches.size() >= 3;
+  result.noise = shows_noise ? noise_of(result.stretches, loaded, usual) : usual;
+  result.headings = shows_noise ? averaged_fit(result.stretches, loaded, usual, result.noise)
+                                : fit_headings(result.stretches, loaded, result.noise);
   const Eigen::Vector2d& a = result.headings.a;
   result.E_d = a[0] / a[1];
   result.b_per_scale_m = 2 / a.sum();

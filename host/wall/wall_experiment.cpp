@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "host/base/folder_lock.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/robot/parameters/parameters.hpp"
+#include "host/wall/move_recorder.hpp"
+#include "host/wall/wall_gyro.hpp"
 #include "host/wall/wall_programme.hpp"
 
 namespace astro::wall {
@@ -23,15 +26,17 @@ constexpr int kDoubtsInARow = 3;
 
 class Experiment {
  public:
-  Experiment(robot::Client& client, const WallRobot& robot, double push_V,
+  Experiment(robot::Client& client, const WallRobot& robot, const recording::RunInfo& info, double push_V,
              const std::filesystem::path& folder, WallJournal journal, const WallHooks& hooks)
       : folder_(folder),
         journal_(std::move(journal)),
         hooks_(hooks),
         robot_(robot),
         course_(plan_course(wishes_of(journal_.plan, robot), journal_.loaded)),
-        driver_(client, robot, push_V, limits(), hooks.drive) {
-    estimate_ = estimate_wall(journal_.drive, journal_.loaded);
+        driver_(client, robot, push_V, limits(), hooks.drive),
+        runs_(read_moves(folder, journal_.moves.size(), info)) {
+    if (robot.uses_gyro) recorder_.emplace(client, info);
+    estimate();
   }
 
   WallResult run() {
@@ -45,7 +50,7 @@ class Experiment {
       write_wall_journal(folder_, journal_);
       hooks_.squared(estimate_);
     }
-    return {estimate_, journal_, robot_, is_precise(estimate_, journal_.plan.targets)};
+    return {estimate_, journal_, robot_, is_precise(estimate_, journal_.plan.targets), gyro()};
   }
 
  private:
@@ -61,12 +66,30 @@ class Experiment {
   std::optional<WallMove> next() const { return next_move(journal_, estimate_, robot_); }
   bool readings_contradict() const { return estimate_.scale && estimate_.scale->contradictory(); }
 
+  void estimate() { estimate_ = estimate_wall(journal_.drive, journal_.loaded, journal_.plan.usual_noise()); }
+
+  std::optional<experiment::GyroResult> gyro() const {
+    try {
+      auto found = calibrate_gyro(runs_, journal_, estimate_);
+      if (!found && robot_.uses_gyro)
+        throw Error(
+            "it measured on no turn between two squarings: see that it is connected, and let the robot stand "
+            "for a second after its start",
+            calibration::GyroProblem::no_rates);
+      return found;
+    } catch (const Error& error) {
+      hooks_.drive.notice(error.in("the gyro is not calibrated: "));
+      return std::nullopt;
+    }
+  }
+
   void begin_series() {
     hooks_.placed();
     const double began_s = robot_s();
     const WheelTravel flush = driver_.square(kFurthestStart_m).travel;
     journal_.driven_s += robot_s() - began_s;
     journal_.drive.push_back({{flush}, {}});
+    if (recorder_) recorder_->take();
   }
 
   calibration::WheelFactors factors_to_drive_by() const {
@@ -154,26 +177,51 @@ class Experiment {
   }
 
   void keep(const WallMove& move, const WheelTravel& flush, double further_m) {
+    recording::Run run = recorder_ ? recorder_->take() : recording::Run{};
     series().squarings.push_back(flush);
-    if (const auto doubt = doubt_about_squaring(series(), estimate_, further_m)) {
-      series().squarings.pop_back();
-      // A gap that was read since the last squaring is dropped, too, because somebody may have moved the
-      // robot.
-      std::erase_if(series().readings,
-                    [&](const auto& reading) { return reading.squaring + 1 == series().squarings.size(); });
-      if (++doubts_ == kDoubtsInARow)
-        throw Error(
-            doubt->fact +
-                ": see that the wall is straight and firm, the front of the robot flat, and the floor "
-                "free and clean",
-            doubt->kind);
-      hooks_.drive.notice({doubt->fact + "; that way does not count, and is driven again", doubt->kind});
-      journal_.drive.push_back({{flush}, {}});
-      return;
-    }
+    std::optional<Remark> doubt;
+    if (const auto squaring = doubt_about_squaring(series(), estimate_, further_m))
+      doubt = Remark{squaring->fact, squaring->kind};
+    else if (move.turns != 0)
+      doubt = doubt_by_gyro(run);
+    if (doubt) return refuse(flush, *doubt);
     doubts_ = 0;
     journal_.moves.push_back(move);
-    estimate_ = estimate_wall(journal_.drive, journal_.loaded);
+    if (recorder_) write_move(folder_, journal_.moves.size(), run);
+    runs_.push_back(std::move(run));
+    estimate();
+  }
+
+  /// Whether the robot turned without its wheels in this move.
+  std::optional<Remark> doubt_by_gyro(const recording::Run& run) const {
+    constexpr std::size_t kFollowed = 4;  // moves that show how the gyro follows the wheels
+    const std::size_t before = std::min(kFollowed, journal_.drive.back().squarings.size() - 2);
+    const auto slips =
+        unseen_turns_in(run, std::span(runs_).last(std::min(before, runs_.size())), estimate_.factors);
+    if (slips.empty()) return std::nullopt;
+    const auto furthest = std::ranges::max_element(
+        slips, {}, [](const calibration::UnseenTurn& slip) { return std::abs(slip.slip.turn_rad); });
+    return Remark{
+        fmt::format("by its gyro the robot turned by {:.1f} degrees without its wheels, {:.1f} s after "
+                    "it had left the wall",
+                    degrees(std::abs(furthest->slip.turn_rad)), furthest->slip.begin_s),
+        WallProblem::slipped};
+  }
+
+  /// The move that ended with this squaring does not count.
+  void refuse(const WheelTravel& flush, const Remark& doubt) {
+    series().squarings.pop_back();
+    // A gap that was read since the last squaring is dropped, too, because somebody may have moved the
+    // robot.
+    std::erase_if(series().readings,
+                  [&](const auto& reading) { return reading.squaring + 1 == series().squarings.size(); });
+    if (++doubts_ == kDoubtsInARow)
+      throw Error(doubt.sentence +
+                      ": see that the wall is straight and firm, the front of the robot flat, and the floor "
+                      "free and clean",
+                  doubt.kind);
+    hooks_.drive.notice({doubt.sentence + "; that way does not count, and is driven again", doubt.kind});
+    journal_.drive.push_back({{flush}, {}});
   }
 
   const std::filesystem::path& folder_;
@@ -182,6 +230,8 @@ class Experiment {
   const WallRobot& robot_;
   WallCourse course_;
   WallDriver driver_;
+  std::optional<MoveRecorder> recorder_;  // of a robot with a gyro
+  MoveRuns runs_;                         // of the journal's moves
   WallEstimate estimate_;
   double waited_s_ = 0;
   int doubts_ = 0;
@@ -193,10 +243,17 @@ WallResult run_wall_experiment(robot::Client& client, const WallPlan& plan,
                                const std::filesystem::path& folder, const WallHooks& hooks) {
   plan.check();
   const FolderLock lock(folder);  // two programs would drive into each other's series
-  const WallRobot robot = wall_robot_of(robot::RemoteParameters::fetch(client));
+  const auto parameters = robot::RemoteParameters::fetch(client);
+  const WallRobot robot = wall_robot_of(parameters);
+  const experiment::RobotIdentity identity = experiment::identity_of(client.robot());
+  recording::RunInfo info;
+  info.kind = "free";
+  info.robot_name = identity.name;
+  info.robot_id = identity.id;
+  info.parameters = parameters.numbers();
   const double push_V = push_voltage_V(plan.push, robot);
-  return Experiment(client, robot, push_V, folder,
-                    open_wall_journal(folder, plan, experiment::identity_of(client.robot()), robot), hooks)
+  return Experiment(client, robot, info, push_V, folder, open_wall_journal(folder, plan, identity, robot),
+                    hooks)
       .run();
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/wall/gap_doubt.hpp"
 #include "host/wall/wall_drive.hpp"
 #include "host/wall/wall_estimate.hpp"
@@ -36,7 +37,8 @@ struct WallResult {
   WallEstimate estimate;
   WallJournal journal;
   WallRobot robot;
-  bool reached = false;  // the wanted precision of E_d and b
+  bool reached = false;                        // the wanted precision of E_d and b
+  std::optional<experiment::GyroResult> gyro;  // of a robot that uses one; names: of the series
 };
 
 /// The whole calibration in front of a wall: squares the robot, drives the moves of plan_course, squares it after each, and
@@ -46,6 +48,9 @@ struct WallResult {
 /// If the squaring after a move contradicts the wheels (SquaringDoubt), the move does not count and is driven again, and a new
 /// series begins as if the robot had been lifted. The third such move in a row is an error. If the ruler's readings contradict
 /// each other, up to two more are asked for.
+///
+/// If the robot uses a gyro, each move is recorded (wall_gyro.hpp). A move with turns in which the robot turned without its wheels does
+/// not count, either. A gyro that cannot be calibrated is told, and the wheels' result counts without it.
 ///
 /// The estimated scale changes the distances that the robot drives by at most 5 %, so a misread gap does not lead it beyond the
 /// room that it was given.

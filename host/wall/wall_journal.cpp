@@ -10,6 +10,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/files.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/base/text/json_weight.hpp"
 #include "host/base/utc.hpp"
 #include "host/experiment/files/factors_json.hpp"
@@ -19,7 +20,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
+// Six of it between two squarings are 26 degrees, beyond which the turns could be counted wrongly.
+constexpr double kMostSquaring_rad = 0.0524;
 
 std::filesystem::path file_in(const std::filesystem::path& folder) { return folder / "wall.json"; }
 
@@ -67,6 +70,7 @@ json object(const WallPlan& plan) {
           {"speed_mps", plan.speed_mps},
           {"yaw_rate_radps", plan.yaw_rate_radps},
           {"most_minutes", plan.most_minutes},
+          {"squaring_rad", plan.squaring_rad},
           {"push_N", plan.push.force_N},
           {"stall_Nm", plan.push.stall_Nm},
           {"stall_V", plan.push.stall_V},
@@ -84,6 +88,7 @@ WallPlan plan_in(const json& value) {
   plan.speed_mps = finite(value.at("speed_mps"));
   plan.yaw_rate_radps = finite(value.at("yaw_rate_radps"));
   plan.most_minutes = finite(value.at("most_minutes"));
+  plan.squaring_rad = finite(value.at("squaring_rad"));
   plan.push = {finite(value.at("push_N")), finite(value.at("stall_Nm")), finite(value.at("stall_V"))};
   plan.body = {finite(value.at("front_to_axle_m")), finite(value.at("length_m")),
                finite(value.at("width_m"))};
@@ -179,6 +184,12 @@ void require_within(double value, double least, double most, const char* name, c
 
 }  // namespace
 
+WallNoise WallPlan::usual_noise() const {
+  WallNoise noise;
+  noise.squaring_rad = squaring_rad;
+  return noise;
+}
+
 void WallPlan::check() const {
   require_within(line_m, 0.5, 20, "line_m",
                  fmt::format("laps of {:g} m are not between 0.5 and 20 m", line_m));
@@ -191,6 +202,9 @@ void WallPlan::check() const {
                  fmt::format("a yaw rate of {:g} rad/s is not between 0.1 and 10", yaw_rate_radps));
   require_within(most_minutes, 1, 120, "most_minutes",
                  fmt::format("{:g} minutes are not between 1 and 120", most_minutes));
+  require_within(squaring_rad, 1e-4, kMostSquaring_rad, "squaring_rad",
+                 fmt::format("an error of {:g} degrees against the wall is not between 0.006 and 3",
+                             degrees(squaring_rad)));
   require_within(push.force_N, 0.5, 100, "push",
                  fmt::format("a push of {:g} N is not between 0.5 and 100", push.force_N));
   require_possible(

@@ -20,8 +20,13 @@ struct WallPlan {
   double gap_m = 2;   // which it shows
   double speed_mps = 0.7, yaw_rate_radps = 1.8;
   double most_minutes = 10;  // of driving
+  double squaring_rad =
+      WallNoise{}.squaring_rad;  // as exactly the front lies against the wall each time, roughly
   PushLimit push;
   BodySize body;
+
+  /// What is known of the noise beforehand.
+  WallNoise usual_noise() const;
 
   /// Throws astro::Error naming the value that cannot be driven.
   void check() const;

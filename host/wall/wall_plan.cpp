@@ -11,8 +11,8 @@ namespace {
 using Kind = WallMove::Kind;
 
 constexpr double kRepeat_m = 0.08, kFirstLine_m = 1;
-constexpr int kLaps = 2;   // between two squarings
-constexpr int kTurns = 3;  // of a spin
+constexpr int kLaps = 2;                          // between two squarings
+constexpr int kFewestTurns = 3, kMostTurns = 10;  // of a spin
 
 /// What the wheels of a nominal robot have travelled.
 class NominalWheels {
@@ -96,8 +96,12 @@ WallMove laps_number(int index, const WallWishes& wishes) {
   return {Kind::laps, wishes.turning_m, index % 2 == 0 ? kLaps : -kLaps, wishes.line_m};
 }
 
-WallMove spin_number(int index, const WallWishes& wishes) {
-  return {Kind::spin, wishes.turning_m, index % 2 == 0 ? kTurns : -kTurns, 0};
+// Slip is of variance 2 pi N K / b, both squarings of 2 squaring^2.
+WallMove spin_number(int index, const WallWishes& wishes, double b_m) {
+  const WallNoise& noise = wishes.noise;
+  const double even = noise.squaring_rad * noise.squaring_rad * b_m / (std::numbers::pi * noise.K_m);
+  const int turns = static_cast<int>(std::ceil(std::clamp<double>(even, kFewestTurns, kMostTurns)));
+  return {Kind::spin, wishes.turning_m, index % 2 == 0 ? turns : -turns, 0};
 }
 
 WallCourse plan_course(const WallWishes& wishes, const calibration::WheelFactors& loaded) {
@@ -111,7 +115,7 @@ WallCourse plan_course(const WallWishes& wishes, const calibration::WheelFactors
   for (int i = 0; i < kMostMoves && errors(moves).E_d > wishes.targets.E_d; ++i)
     moves.push_back(laps_number(i, wishes));
   for (int i = 0; i < kMostMoves && errors(moves).b > wishes.targets.b; ++i)
-    moves.push_back(spin_number(i, wishes));
+    moves.push_back(spin_number(i, wishes, loaded.b_m));
   WallCourse course{moves, errors(moves), 0};
   for (const WallMove& move : moves) course.time_s += time_of(move, wishes);
   return course;

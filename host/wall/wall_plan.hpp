@@ -56,7 +56,8 @@ WallCourse plan_course(const WallWishes& wishes, const calibration::WheelFactors
 
 /// The laps number `index` of a course, counted from 0; every other one is clockwise.
 WallMove laps_number(int index, const WallWishes& wishes);
-WallMove spin_number(int index, const WallWishes& wishes);
+/// With so many turns that the squarings at both ends are no larger an error of b than the slip, but 3 to 10.
+WallMove spin_number(int index, const WallWishes& wishes, double b_m);
 
 /// The standard errors that a nominal robot has after these moves.
 WallErrors expected_errors(const std::vector<WallMove>& moves, const calibration::WheelFactors& loaded,

@@ -33,6 +33,8 @@ WallRobot wall_robot_of(const robot::RemoteParameters& robot) {
   facts.yaw_rate_limit_radps = robot.number("yaw_rate_limit");
   facts.acceleration_mps2 = robot.number("acceleration_limit");
   facts.yaw_acceleration_radps2 = robot.number("yaw_acceleration_limit");
+  facts.uses_gyro = robot.find("gyro_axis") != nullptr && robot.number("gyro_axis") != 0;
+  if (facts.uses_gyro) facts.gyro_scale = robot.number("gyro_scale");
   facts.half_voltage_V = robot.number("motor_voltage_max") / 2;
   return facts;
 }

@@ -19,6 +19,7 @@ enum class WallProblem {
   no_wall,
   runs_backwards,
   readings_contradict,
+  slipped,
   impossible_plan,
   push_too_weak,
   push_too_strong,
@@ -53,6 +54,8 @@ struct WallRobot {
   std::array<double, 2> kS_V{}, kV_Vspm{}, kA_Vs2pm{};  // left, right
   double speed_limit_mps = 0, yaw_rate_limit_radps = 0;
   double acceleration_mps2 = 0, yaw_acceleration_radps2 = 0;
+  bool uses_gyro = false;
+  double gyro_scale = 1;      // that the robot has taken out of what its gyro says
   double half_voltage_V = 0;  // above this the robot takes a wheel that stands for stalled
 };
 

@@ -19,11 +19,11 @@ constexpr double kFullDuty = 32767;
 
 }  // namespace
 
-WheelWatch::WheelWatch(robot::Client& client, double count_m)
+WheelWatch::WheelWatch(robot::Client& client, double count_m, std::uint32_t more)
     : client_(client),
       count_m_(count_m),
       subscription_(client.on<Telemetry>([this](const Telemetry& telemetry) { take(telemetry); })) {
-  client_.request(protocol::SetTelemetry{kPeriod_ms, kFields});
+  client_.request(protocol::SetTelemetry{kPeriod_ms, kFields | more});
   fresh();
 }
 

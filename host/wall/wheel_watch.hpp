@@ -21,7 +21,8 @@ struct WheelMoment {
 /// Errors  LinkLost if no telemetry comes.
 class WheelWatch {
  public:
-  WheelWatch(robot::Client& client, double count_m);
+  /// `more`: groups of telemetry that others look at.
+  WheelWatch(robot::Client& client, double count_m, std::uint32_t more = 0);
   ~WheelWatch();
   WheelWatch(const WheelWatch&) = delete;
   WheelWatch& operator=(const WheelWatch&) = delete;

@@ -199,11 +199,12 @@ TurnVector information(double way_deviation) {
   return {0, 1 / (kRateDoubt_s * kRateDoubt_s), 1 / (way_deviation * way_deviation)};
 }
 
+/// By the reference: a gyro on another axis turns nowhere.
 double turned_rad(std::span<const std::vector<TurnSample>> drives) {
   double sum_rad = 0;
   for (const std::vector<TurnSample>& drive : drives)
     for (std::size_t i = 1; i < drive.size(); ++i)
-      sum_rad += std::abs(drive[i].response_rad - drive[i - 1].response_rad);
+      sum_rad += std::abs(drive[i].regressors[kTurn] - drive[i - 1].regressors[kTurn]);
   return sum_rad;
 }
 
@@ -281,7 +282,7 @@ GyroAgainstWheels compare_gyro(std::span<const GyroDrive> drives, const WheelFac
                                   -fit.drifts[i].radps / product,
                                   -fit.x[kWay] / product,
                                   fit.noise};
-    for (UnseenTurn& slip : unseen_turns(pairs[i].wheels, pairs[i].gyro, drive.reported, following)) {
+    for (UnseenTurn& slip : unseen_turns(pairs[i].wheels, pairs[i].gyro, following)) {
       slip.drive = pairs[i].drive;
       found.slips.push_back(slip);
     }
@@ -308,6 +309,45 @@ std::optional<GyroScale> gyro_scale_by_truth(std::span<const GyroDrive> drives, 
   const double scale = 1 / fit.x[kTurn];
   return GyroScale{scale, std::sqrt(fit.covariance(kTurn, kTurn)) * scale * scale, fit.chi_square,
                    fit.degrees_of_freedom};
+}
+
+std::optional<GyroByHeadings> gyro_scale_by_headings(std::span<const GyroDrive> drives,
+                                                     std::span<const std::vector<KnownHeading>> headings,
+                                                     double heading_rad, const GyroAgainstWheels& compared) {
+  constexpr double kWithinTwo = 1.4, kLeastTurn_rad = 2 * std::numbers::pi - 0.5;
+  std::vector<std::vector<TurnSample>> samples;
+  std::vector<std::string> names;
+  double turned_rad = 0;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const GyroPath gyro(drives[i].rates);
+    std::vector<TurnSample> of_drive;
+    int piece = 0;
+    for (const KnownHeading& known : headings[i]) {
+      const GyroPath::Place place = gyro.at(known.time_s);
+      if (!place.known) continue;
+      const bool goes_on = !of_drive.empty() && place.piece == piece;
+      if (goes_on) turned_rad += std::abs(known.heading_rad - of_drive.back().regressors[kTurn]);
+      of_drive.push_back(
+          {known.time_s, place.turn_rad, {known.heading_rad, 0, 0}, 0, !of_drive.empty() && !goes_on});
+      piece = place.piece;
+    }
+    if (of_drive.size() < 2) continue;
+    samples.push_back(std::move(of_drive));
+    names.push_back(drives[i].name);
+  }
+  if (turned_rad < kLeastTurn_rad) return std::nullopt;
+  const double scale = compared.product;
+  const TurnNoisePrior prior{
+      {compared.noise.gyro_rad2ps, kBias_rad2ps3, 0, scale * scale * heading_rad * heading_rad},
+      {kMeasured, kWalkRoughly, 0, kWithinTwo}};
+  // Rate and way have no part in this. Any information keeps their coefficients at zero.
+  const TurnRegression fit = regress_turns(samples, {0, 1, 1}, prior);
+  // regress_turns counts three coefficients. Here there are the scale, and for each drive the bias.
+  const int free = fit.degrees_of_freedom + kTurnColumns - 1 - static_cast<int>(samples.size());
+  GyroByHeadings found{{fit.x[kTurn], std::sqrt(fit.covariance(kTurn, kTurn)), fit.chi_square, free}, {}};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    found.biases.push_back({names[i], fit.drifts[i].radps, fit.drifts[i].se_radps});
+  return found;
 }
 
 }  // namespace astro::calibration

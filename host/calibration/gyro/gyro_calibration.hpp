@@ -63,4 +63,22 @@ struct GyroScale {
 std::optional<GyroScale> gyro_scale_by_truth(std::span<const GyroDrive> drives, const WheelFactors& factors,
                                              const GyroAgainstWheels& compared);
 
+/// The robot's heading at a moment of a drive, on its clock, whole turns included: it has turned so far since the first one.
+struct KnownHeading {
+  double time_s = 0, heading_rad = 0;
+};
+
+struct GyroByHeadings {
+  GyroScale scale;
+  std::vector<GyroBias> biases;  // of the drives that count
+};
+
+/// The gyro's scale by a few headings of each drive, such as those of a robot that stands flush with a wall after whole turns. What it
+/// turned in between is integrated; its bias is what the time shows, and is separated from the scale by turns both ways round.
+/// `headings`: of each drive, in order of time and at rest. `heading_rad`: the standard error of each, known to a factor of two.
+/// Nothing if the drives turn less than once.
+std::optional<GyroByHeadings> gyro_scale_by_headings(std::span<const GyroDrive> drives,
+                                                     std::span<const std::vector<KnownHeading>> headings,
+                                                     double heading_rad, const GyroAgainstWheels& compared);
+
 }  // namespace astro::calibration

@@ -23,11 +23,6 @@ struct GyroDrive {
   std::vector<YawRate> rates;       // in order of time
   std::vector<BodySample> truth;    // on the robot's clock; empty where nothing measured its heading
   double count_m = 0;               // travel of a nominal wheel in a count
-  /// Turns that the robot's own watch over its gyro reported while it drove: when, and how far.
-  struct Reported {
-    double time_s = 0, turn_rad = 0;
-  };
-  std::vector<Reported> reported = {};
 };
 
 /// How far the gyro has turned since its first sample, linear between samples.

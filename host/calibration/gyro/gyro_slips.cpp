@@ -14,8 +14,6 @@ constexpr double kWindows_s[] = {0.15, 0.3};
 constexpr double kDeviations = 5.5, kLeast_rad = 0.6 * std::numbers::pi / 180;
 constexpr double kOfTurn = 0.001;  // that scale and wheelbase may be off
 constexpr double kCalm_s = 0.3;    // that ends a slip
-// Around the moment at which the robot reports a slip: its longest window, and what may follow.
-constexpr double kReportedBefore_s = 0.4, kReportedAfter_s = 0.3;
 
 /// What the gyro turned beyond the wheels, at the wheels' samples.
 struct Beyond {
@@ -80,7 +78,6 @@ std::vector<Stretch> slipping(const std::vector<Beyond>& all, double window_s,
 }  // namespace
 
 std::vector<UnseenTurn> unseen_turns(std::span<const WheelTurn> wheels, const GyroPath& gyro,
-                                     std::span<const GyroDrive::Reported> reported,
                                      const GyroFollowing& following) {
   const std::vector<Beyond> all = beyond(wheels, gyro, following);
   if (all.size() < 2) return {};
@@ -89,15 +86,6 @@ std::vector<UnseenTurn> unseen_turns(std::span<const WheelTurn> wheels, const Gy
     const std::vector<Stretch> found = slipping(all, window_s, following);
     stretches.insert(stretches.end(), found.begin(), found.end());
   }
-  const auto sample_at = [&](double time_s) {
-    const auto at = std::lower_bound(all.begin(), all.end() - 1, time_s, [](const Beyond& one, double time) {
-      return one.wheels->time_s < time;
-    });
-    return static_cast<std::size_t>(at - all.begin());
-  };
-  for (const GyroDrive::Reported& one : reported)
-    stretches.push_back(
-        {sample_at(one.time_s - kReportedBefore_s), sample_at(one.time_s + kReportedAfter_s)});
   std::ranges::sort(stretches, {}, &Stretch::from);
   std::vector<Stretch> merged;
   for (const Stretch& stretch : stretches) {

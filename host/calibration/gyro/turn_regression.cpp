@@ -96,7 +96,8 @@ Fit fit_for(std::span<const std::vector<TurnSample>> drives, const TurnVector& i
   fit.covariance = matrix.inverse();
   fit.x = fit.covariance * right;
   fit.chi_square = squares - right.dot(fit.x);
-  fit.minus_log_likelihood = (logs + fit.chi_square) / 2;
+  // Restricted (REML): noise is not taken for smaller because the coefficients follow it, which counts with a few samples.
+  fit.minus_log_likelihood = (logs + std::log(matrix.determinant()) + fit.chi_square) / 2;
   return fit;
 }
 

@@ -10,9 +10,9 @@
 ///
 /// The filter's states are the phase with both walks, and the drift, which walks as well; it runs over the response and over each
 /// regressor alike, so that the innovations are a regression with independent errors (Harvey 1989, 3.4.2). The noise is that of
-/// maximum likelihood under a weak prior about what such sensors have. Noise of a regressor pulls its coefficient to zero, so the
-/// regressor is the measure with less of it from one sample to the next: the wheels where the gyro is the response, because slip turns
-/// the robot and not the wheels; the gyro where a tracker is the response, because each pose of it has a reading error.
+/// restricted maximum likelihood under a weak prior about what such sensors have. Noise of a regressor pulls its coefficient to zero,
+/// so the regressor is the measure with less of it from one sample to the next: the wheels where the gyro is the response, because slip
+/// turns the robot and not the wheels; the gyro where a tracker is the response, because each pose of it has a reading error.
 namespace astro::calibration {
 
 /// The regressors: the turn; the robot's yaw rate, whose coefficient shows what both clocks are apart; and the way, on which wheels
@@ -56,7 +56,7 @@ struct TurnRegression {
 
 /// `information`: what is known of the coefficients about 0 beforehand. Samples that are off by more than six deviations start a new
 /// phase: a slip, or a reference that went wrong. They are marked so in `drives`.
-/// Precondition: at least ten samples in all.
+/// Precondition: a sample that goes on from another one. With few samples the noise is that of the prior.
 /// Cost  about 60 passes over the samples.
 TurnRegression regress_turns(std::span<std::vector<TurnSample>> drives, const TurnVector& information,
                              const TurnNoisePrior& prior);

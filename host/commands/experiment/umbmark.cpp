@@ -7,6 +7,7 @@
 
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
+#include "host/base/text/degrees.hpp"
 #include "host/commands/base/advice.hpp"
 #include "host/commands/base/flags.hpp"
 #include "host/commands/experiment/commands.hpp"
@@ -39,6 +40,7 @@
 #include "host/experiment/files/plan_problem.hpp"
 #include "host/report/report.hpp"
 #include "host/truth/live/scanner_source.hpp"
+#include "host/wall/wall_estimate.hpp"
 #include "host/wall/wall_robot.hpp"
 
 namespace astro::commands {
@@ -130,6 +132,7 @@ void brief(UmbmarkOptions& options) {
 /// Drives laps in front of a wall in place of squares, with the options that both have.
 void run_with_wall(UmbmarkOptions& options) {
   wall::WallPlan& plan = options.wall.plan;
+  if (options.wall.alignment.count() > 0) plan.squaring_rad = radians(options.wall.alignment_deg);
   if (options.line.count() > 0) plan.line_m = options.plan.line_m;
   if (options.speed.count() > 0) plan.speed_mps = options.plan.speed_mps;
   if (options.yaw_rate.count() > 0) plan.yaw_rate_radps = options.plan.yaw_rate_radps;
@@ -231,6 +234,8 @@ constexpr Advice kUmbmarkAdvice[] = {
     {wall::WallProblem::wheels_stand, "; the same command goes on"},
     {wall::WallProblem::turned_away, "; the same command goes on"},
     {wall::WallProblem::no_wall, "; the same command goes on"},
+    {wall::SquaringDoubt::Kind::turned,
+     "; --alignment says how exactly a front lies against the wall that is not flat"},
     {wall::WallProblem::journal_damaged, ": choose another --out"},
     {wall::WallProblem::other_robot, ": choose another --out"},
     {wall::WallProblem::other_wheel, ": choose another --out"},

@@ -70,7 +70,8 @@ int brief(const wall::WallPlan& plan, robot::Client& client, const WallSettings&
   const auto journal = wall::read_wall_journal(settings.out);
   int readings = plan.readings;
   if (journal) {
-    const auto next = wall::next_move(*journal, wall::estimate_wall(journal->drive, journal->loaded), robot);
+    const auto next = wall::next_move(
+        *journal, wall::estimate_wall(journal->drive, journal->loaded, plan.usual_noise()), robot);
     if (!next) return 0;
     const bool one_more =
         next->kind == wall::WallMove::Kind::gap;  // those that were read contradict each other
@@ -101,6 +102,10 @@ void add_wall_options(console::Command command, WallOptions& options) {
   add("--readings", plan.readings, "how often somebody reads the ruler;\n0: the scale stays as it is");
   add("--gap", plan.gap_m, "the gap that the ruler shows, m");
   add("--minutes", plan.most_minutes, "the most of driving");
+  options.alignment = command.add_option(
+      "--alignment", options.alignment_deg,
+      "--truth wall: how exactly the front lies against the\nwall each time, degrees; a flat one to 0.1");
+  options.own.emplace_back("--alignment", options.alignment);
   add("--push", plan.push.force_N, "the hardest push against the wall, N");
   add("--stall-torque", plan.push.stall_Nm, "of a motor at its wheel, N m");
   add("--stall-voltage", plan.push.stall_V, "at which it has that torque, V");

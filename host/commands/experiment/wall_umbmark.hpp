@@ -16,6 +16,8 @@ namespace astro::commands {
 
 struct WallOptions {
   wall::WallPlan plan;
+  double alignment_deg = 0;  // plan.squaring_rad, if it is given
+  console::Option alignment;
   std::vector<std::pair<std::string, console::Option>> own;  // which no other truth has
 };
 

@@ -43,6 +43,20 @@ std::optional<double> loaded_scale(const RunSet& set) {
   return loaded;
 }
 
+struct ReferenceNames {
+  const char *in_json, *in_words;
+};
+ReferenceNames names_of(GyroReference by) {
+  switch (by) {
+    case GyroReference::truth:
+      return {"truth", "the headings of the ground truth"};
+    case GyroReference::wall:
+      return {"wall", "whole turns between two squarings against the wall"};
+    default:
+      return {"wheels", "the wheels with the factors found"};
+  }
+}
+
 /// The relative error of the wheelbase over the scale of both wheels, which is that of the wheels' turns.
 double turn_error(const Calibration& found) {
   const calibration::FactorCovariance& covariance =
@@ -60,9 +74,7 @@ calibration::GyroDrive gyro_drive(const recording::Run& run, const std::string& 
   for (const recording::YawRate& rate : run.yaw_rates)
     drive.rates.push_back({seconds(rate.time_us), rate.rate_radps});
   for (const recording::GyroPose& pose : run.gyro)
-    drive.rates.push_back({seconds(pose.time_us), pose.omega_radps});
-  for (const recording::GyroSlip& slip : run.slips)
-    drive.reported.push_back({seconds(slip.time_us), slip.turn_rad});
+    if (std::isfinite(pose.omega_radps)) drive.rates.push_back({seconds(pose.time_us), pose.omega_radps});
   return drive;
 }
 
@@ -91,10 +103,11 @@ std::optional<GyroResult> calibrate_gyro(const RunSet& set, const Calibration& f
     const calibration::Trajectory trajectory = trajectory_of(set.runs[i], set.names[i]);
     drives.back().truth = headings(trajectory.truth, trajectory, *found.ml());
   }
-  GyroResult result{calibration::compare_gyro(drives, found.factors), {}, false, {}, set.names};
+  GyroResult result{
+      calibration::compare_gyro(drives, found.factors), {}, GyroReference::wheels, {}, set.names};
   const calibration::GyroAgainstWheels& wheels = result.against_wheels;
   const auto by_truth = calibration::gyro_scale_by_truth(drives, found.factors, wheels);
-  result.by_truth = by_truth.has_value();
+  if (by_truth) result.by = GyroReference::truth;
   result.scale = by_truth.value_or(calibration::GyroScale{
       wheels.product, std::hypot(wheels.product_se, wheels.product * turn_error(found)), wheels.chi_square,
       wheels.degrees_of_freedom});
@@ -119,11 +132,10 @@ GyroAlone factors_by_gyro(const RunSet& set, double scale_error) {
 }
 
 std::string gyro_sentence(const GyroResult& result) {
-  return fmt::format(
-      "The gyro measures {:.5f} ± {:.5f} of what the robot turned{}, by {}. {}", std::abs(result.scale.scale),
-      result.scale.se, result.scale.scale < 0 ? ", clockwise instead of counter-clockwise" : "",
-      result.by_truth ? "the headings of the ground truth" : "the wheels with the factors found",
-      timing_sentence(result.against_wheels));
+  return fmt::format("The gyro measures {:.5f} ± {:.5f} of what the robot turned{}, by {}. {}",
+                     std::abs(result.scale.scale), result.scale.se,
+                     result.scale.scale < 0 ? ", clockwise instead of counter-clockwise" : "",
+                     names_of(result.by).in_words, timing_sentence(result.against_wheels));
 }
 
 std::string timing_sentence(const calibration::GyroAgainstWheels& wheels) {
@@ -190,7 +202,7 @@ nlohmann::json to_json(const GyroResult& result) {
   json["scale_se"] = number(result.scale.se);
   json["sign"] = result.scale.scale < 0 ? -1 : 1;
   if (result.parameter) json["gyro_scale"] = number(*result.parameter);
-  json["scale_by"] = result.by_truth ? "truth" : "wheels";
+  json["scale_by"] = names_of(result.by).in_json;
   return json;
 }
 

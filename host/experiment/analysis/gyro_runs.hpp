@@ -22,12 +22,15 @@ calibration::GyroDrive gyro_drive(const recording::Run& run, const std::string& 
 /// run had loaded. Nothing where no gyro can be compared with the wheels.
 std::vector<std::vector<calibration::Slip>> slips_by_gyro(const RunSet& set);
 
+/// What shows the gyro's scale: the headings of a tracker; the wheels with the factors found, whose error is part of it; whole turns
+/// between two squarings against a wall.
+enum class GyroReference { truth, wheels, wall };
+
 struct GyroResult {
   calibration::GyroAgainstWheels against_wheels;  // with the factors found
-  /// The turn that the gyro measures over the true one: by the truth's headings where a tracker followed the drives, otherwise by the
-  /// wheels with the factors found, whose error is part of it. Of our own robots on top of the scale that was loaded.
+  /// The turn that the gyro measures over the true one. Of our own robots on top of the scale that was loaded.
   calibration::GyroScale scale;
-  bool by_truth = false;
+  GyroReference by = GyroReference::wheels;
   /// What our own robot should have as its parameter gyro_scale: the loaded one times `scale`. Nothing of other robots, if drives had
   /// different ones, or if the gyro turns the other way, which is a matter of gyro_axis.
   std::optional<double> parameter;

@@ -226,5 +226,26 @@ TEST(Wall, OutOfReachChangesNoBit) {
   EXPECT_EQ(trace(Config{}), trace(config));
 }
 
+TEST(Wall, AFrontWithPlaySettlesAnewOnceItHasLeftTheWall) {
+  constexpr double kPlay_rad = 0.01;
+  const Body body{.front_play_rad = kPlay_rad};
+  const WallConfig config;
+  Wall wall(config, body, 7);
+  const auto stand_m = [&](double gap_m) { wall.force({config.x_m - body.ahead_m - gap_m, 0, 0}, 0, 0); };
+  constexpr int kTouches = 400;
+  double squares = 0;
+  for (int i = 0; i < kTouches; ++i) {
+    stand_m(-0.003);
+    const double settled_rad = wall.flush_heading_rad();
+    stand_m(0.01);
+    stand_m(-0.003);
+    EXPECT_EQ(wall.flush_heading_rad(), settled_rad) << "it has hardly left the wall";
+    squares += std::pow(std::remainder(settled_rad, 2 * std::numbers::pi), 2) / kTouches;
+    stand_m(0.05);
+    EXPECT_NE(wall.flush_heading_rad(), settled_rad);
+  }
+  EXPECT_NEAR(std::sqrt(squares), kPlay_rad, 0.1 * kPlay_rad) << "a deviation of 400 scatters by 3.5 %";
+}
+
 }  // namespace
 }  // namespace astro::sim

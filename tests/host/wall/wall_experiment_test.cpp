@@ -20,20 +20,12 @@
 namespace astro::wall {
 namespace {
 
+using support::quick_plan;
 using support::robot_before_a_wall;
 using support::Tells;
 using support::TemporaryFolder;
 using support::WallDesk;
 using testing::HasSubstr;
-
-/// Coarse targets: a calibration of two minutes.
-WallPlan quick() {
-  WallPlan plan;
-  plan.targets = {1e-3, 3e-3};
-  plan.line_m = 2;
-  plan.gap_m = 1;
-  return plan;
-}
 
 /// Within five standard errors.
 void expect_right(const WallDesk& desk, const WallEstimate& found) {
@@ -55,7 +47,8 @@ TEST(WallExperiment, FindsTheFactorsOfARobot) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const TemporaryFolder folder;
     WallDesk desk(robot_before_a_wall(seed));
-    const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), desk.hooks());
+    const WallResult result =
+        run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), desk.hooks());
     EXPECT_TRUE(result.reached);
     expect_right(desk, result.estimate);
     EXPECT_EQ(result.estimate.scale->readings, 2);
@@ -70,7 +63,7 @@ TEST(WallExperiment, LeavesTheScaleAsItWasIfNobodyReadsARuler) {
   WallDesk desk(robot_before_a_wall(4));
   WallHooks hooks = desk.hooks();
   hooks.read_gap = [](double) { return std::nullopt; };
-  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
   expect_right(desk, result.estimate);
   EXPECT_FALSE(result.estimate.scale.has_value());
   EXPECT_NEAR(result.estimate.factors.c_r + result.estimate.factors.c_l, 2, 1e-12);
@@ -84,7 +77,7 @@ TEST(WallExperiment, GoesOnWhereItWasBrokenOff) {
   for (int broken = 1; broken <= 2; ++broken) {
     const std::uint64_t end_us = desk.board().world_us() + 55'000'000;
     hooks.drive.interrupted = [&] { return desk.board().world_us() > end_us; };
-    EXPECT_THROW(run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks), Interrupted);
+    EXPECT_THROW(run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks), Interrupted);
     EXPECT_EQ(desk.desk.client.request(protocol::GetStatus{}).mode, protocol::Mode::disarmed);
     const auto journal = read_wall_journal(folder.path());
     ASSERT_TRUE(journal.has_value());
@@ -92,10 +85,10 @@ TEST(WallExperiment, GoesOnWhereItWasBrokenOff) {
     moves = journal->moves.size();
   }
   hooks.drive.interrupted = [] { return false; };
-  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
   expect_right(desk, result.estimate);
   EXPECT_EQ(result.journal.drive.size(), 3U);
-  const WallResult again = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  const WallResult again = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
   EXPECT_EQ(again.journal.moves.size(), result.journal.moves.size()) << "a finished one drives no more";
   EXPECT_EQ(again.estimate.factors.b_m, result.estimate.factors.b_m);
 }
@@ -116,14 +109,14 @@ TEST(WallExperiment, DoesNotCountAWayOnWhichTheRobotWasTurned) {
     return std::optional(desk.read_gap_m());
   };
   hooks.read_again = confirm;
-  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
   ASSERT_FALSE(notices.empty());
   EXPECT_THAT(notices.front(), Tells(SquaringDoubt::Kind::turned));
   EXPECT_LT(std::abs(desk.E_d_error(result.estimate)), 5 * result.estimate.se.E_d);
   EXPECT_LT(std::abs(desk.b_error(result.estimate)), 5 * result.estimate.se.b);
   ASSERT_TRUE(result.estimate.scale);
   EXPECT_EQ(result.estimate.scale->readings,
-            quick().readings);  // what was read beside a turned robot is forgotten
+            quick_plan().readings);  // what was read beside a turned robot is forgotten
 }
 
 TEST(WallExperiment, GivesUpIfTheWallIsNeverWhereItWas) {
@@ -136,7 +129,7 @@ TEST(WallExperiment, GivesUpIfTheWallIsNeverWhereItWas) {
     desk.board().place(pose);
     return std::nullopt;
   };
-  EXPECT_THAT(why_not(desk, quick(), folder.path(), hooks),
+  EXPECT_THAT(why_not(desk, quick_plan(), folder.path(), hooks),
               testing::AnyOf(Tells(SquaringDoubt::Kind::too_late), Tells(WallProblem::no_wall)));
 }
 
@@ -146,14 +139,14 @@ TEST(WallExperiment, AsksAgainAboutAGapThatCannotBe) {
   WallHooks hooks = desk.hooks();
   std::vector<GapDoubt::Mistake> doubts;
   hooks.read_gap = [&](double expected_m) {
-    EXPECT_NEAR(expected_m, quick().gap_m, 0.03);
+    EXPECT_NEAR(expected_m, quick_plan().gap_m, 0.03);
     return std::optional(desk.read_gap_m() * 0.1);
   };
   hooks.read_again = [&](const GapDoubt& doubt) {
     doubts.push_back(doubt.mistake);
     return std::optional(desk.read_gap_m());
   };
-  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
   EXPECT_THAT(doubts, testing::Each(GapDoubt::Mistake::other_unit));
   EXPECT_EQ(doubts.size(), 2U);
   expect_right(desk, result.estimate);
@@ -172,12 +165,12 @@ TEST(WallExperiment, NeverDrivesFurtherForAGapThatWasMisreadAndConfirmed) {
       furthest_m = std::max(furthest_m, desk.board().wall()->front_gap_m(desk.board().truth()));
       return false;
     };
-    const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+    const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
     EXPECT_NEAR((result.estimate.factors.c_r + result.estimate.factors.c_l) / 2, desk.config.scale * times,
                 0.01);
     // The line, twice the room to turn in, and 5 % of both, and the wheels' own scale.
     const double room_m =
-        1.05 * 1.02 * (quick().line_m + 2 * (BodySize{}.turning_gap_m() + BodySize{}.length_m / 2));
+        1.05 * 1.02 * (quick_plan().line_m + 2 * (BodySize{}.turning_gap_m() + BodySize{}.length_m / 2));
     EXPECT_LT(furthest_m, room_m) << times;
   }
 }
@@ -192,7 +185,7 @@ TEST(WallExperiment, TakesNoGapThatCannotBeHoweverOftenItIsConfirmed) {
     EXPECT_FALSE(doubt.possible);
     return std::optional(++confirmed % 3 == 0 ? desk.read_gap_m() : doubt.read_m);
   };
-  expect_right(desk, run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks).estimate);
+  expect_right(desk, run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks).estimate);
   EXPECT_EQ(confirmed, 6);
 }
 
@@ -205,7 +198,7 @@ TEST(WallExperiment, AsksForAnotherReadingIfTwoContradictEachOtherAndLeavesTheWr
   hooks.drive.notice = [&](const Remark& remark) { notices.push_back(remark); };
   hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() + (asked++ == 0 ? 0.025 : 0)); };
   hooks.read_again = confirm;
-  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
   EXPECT_EQ(asked, 3);
   EXPECT_THAT(notices, testing::ElementsAre(Tells(WallProblem::readings_contradict)));
   EXPECT_EQ(result.estimate.scale->readings, 2);
@@ -220,7 +213,7 @@ TEST(WallExperiment, HasALargeErrorOfTheScaleIfNoReadingsAgree) {
   int asked = 0;
   hooks.read_gap = [&](double) { return std::optional(desk.read_gap_m() + 0.03 * asked++); };
   hooks.read_again = confirm;
-  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks);
+  const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks);
   EXPECT_EQ(asked, 4) << "two more, and no further";
   EXPECT_TRUE(result.estimate.scale->contradictory());
   EXPECT_GT(result.estimate.se.scale, 0.01) << "they differ by 3 cm on a metre, four of them";
@@ -233,7 +226,7 @@ TEST(WallExperiment, LetsOnlyOneProgramDriveInAFolder) {
   const TemporaryFolder folder;
   WallDesk desk(robot_before_a_wall(17));
   const FolderLock other(folder.path());
-  EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()),
+  EXPECT_THAT(why_not(desk, quick_plan(), folder.path(), desk.hooks()),
               support::Tells(FileProblem::folder_in_use, folder.path().string()));
   EXPECT_EQ(desk.board().truth().x_m, 0) << "nothing has moved";
 }
@@ -243,7 +236,7 @@ TEST(WallExperiment, RefusesAJournalThatNoProgramWrote) {
   WallDesk desk(robot_before_a_wall(18));
   WallHooks hooks = desk.hooks();
   hooks.drive.interrupted = [&] { return desk.board().world_us() > 100'000'000; };
-  EXPECT_THROW(run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks), Interrupted);
+  EXPECT_THROW(run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks), Interrupted);
   std::ifstream file(folder.path() / "wall.json");
   const nlohmann::json good = nlohmann::json::parse(file);
   ASSERT_FALSE(good.at("series").at(0).at("readings").empty());
@@ -274,7 +267,7 @@ TEST(WallExperiment, RefusesAJournalThatNoProgramWrote) {
     nlohmann::json bad = good;
     bad.at(nlohmann::json::json_pointer(where)) = value;
     std::ofstream(folder.path() / "wall.json") << bad;
-    EXPECT_THAT(why_not(desk, quick(), folder.path(), desk.hooks()), Tells(WallProblem::journal_damaged))
+    EXPECT_THAT(why_not(desk, quick_plan(), folder.path(), desk.hooks()), Tells(WallProblem::journal_damaged))
         << where << " = " << value;
   }
   std::ofstream(folder.path() / "wall.json") << good;
@@ -286,7 +279,7 @@ TEST(WallExperiment, FindsTheSameFactorsOnARobotThatCarriesOthers) {
   sim::Config config = robot_before_a_wall(9);
   WallDesk desk(config);
   robot::upload(desk.desk.client, {{"c_R", 1.004}, {"c_L", 0.99}, {"b", 0.2875}});
-  const WallResult result = run_wall_experiment(desk.desk.client, quick(), folder.path(), desk.hooks());
+  const WallResult result = run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), desk.hooks());
   EXPECT_NEAR(result.journal.loaded.b_m, 0.2875, 1e-9);
   expect_right(desk, result.estimate);
 }
@@ -296,13 +289,13 @@ TEST(WallExperiment, RefusesAFolderOfOtherSettingsOrAnotherRobotOrADamagedOne) {
   WallDesk desk(robot_before_a_wall(10)), other(robot_before_a_wall(11));
   WallHooks hooks = desk.hooks();
   hooks.drive.interrupted = [&] { return desk.board().world_us() > 30'000'000; };
-  EXPECT_THROW(run_wall_experiment(desk.desk.client, quick(), folder.path(), hooks), Interrupted);
-  WallPlan longer = quick();
+  EXPECT_THROW(run_wall_experiment(desk.desk.client, quick_plan(), folder.path(), hooks), Interrupted);
+  WallPlan longer = quick_plan();
   longer.line_m = 2.5;
   EXPECT_THAT(why_not(desk, longer, folder.path(), hooks), Tells(WallProblem::other_settings));
-  EXPECT_THAT(why_not(other, quick(), folder.path(), other.hooks()), Tells(WallProblem::other_robot));
+  EXPECT_THAT(why_not(other, quick_plan(), folder.path(), other.hooks()), Tells(WallProblem::other_robot));
   std::ofstream(folder.path() / "wall.json") << "{\"format\": 1";
-  EXPECT_THAT(why_not(desk, quick(), folder.path(), hooks), Tells(WallProblem::journal_damaged));
+  EXPECT_THAT(why_not(desk, quick_plan(), folder.path(), hooks), Tells(WallProblem::journal_damaged));
 }
 
 TEST(WallExperiment, RefusesWhatCannotBeDriven) {
@@ -315,12 +308,14 @@ TEST(WallExperiment, RefusesWhatCannotBeDriven) {
       {[](WallPlan& plan) { plan.readings = -1; }, Tells(WallProblem::impossible_plan, "readings", "-1")},
       {[](WallPlan& plan) { plan.push.force_N = 1; }, Tells(WallProblem::push_too_weak, "1")},
       {[](WallPlan& plan) { plan.push.force_N = 80; }, Tells(WallProblem::push_too_strong, "80")},
+      {[](WallPlan& plan) { plan.squaring_rad = 0.1; },
+       Tells(WallProblem::impossible_plan, "squaring_rad", "0.1")},
       {[](WallPlan& plan) { plan.targets.E_d = 0; }, Tells(WallProblem::impossible_plan, "E_d", "0")},
       {[](WallPlan& plan) { plan.body.width_m = 0; }, Tells(WallProblem::impossible_plan, "body")},
       {[](WallPlan& plan) { plan.most_minutes = NAN; },
        Tells(WallProblem::impossible_plan, "most_minutes", "nan")}};
   for (const auto& [spoil, tells] : wrong) {
-    WallPlan plan = quick();
+    WallPlan plan = quick_plan();
     spoil(plan);
     EXPECT_THAT(why_not(desk, plan, folder.path(), desk.hooks()), tells);
   }

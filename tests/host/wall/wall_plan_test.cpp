@@ -53,6 +53,21 @@ TEST(WallPlan, TurnsOnTheSpotOnlyIfLapsDoNotShowB) {
   EXPECT_LE(course.expected.b, 1e-4);
 }
 
+TEST(WallPlan, TurnsMoreOftenOnTheSpotIfTheFrontLiesBadlyAgainstTheWall) {
+  const auto turns = [](double squaring_rad) {
+    WallWishes wishes;
+    wishes.noise.squaring_rad = squaring_rad;
+    return spin_number(0, wishes, kNominal.b_m).turns;
+  };
+  EXPECT_EQ(turns(WallNoise{}.squaring_rad), 3);
+  // With K = 2.645e-6 m and b = 0.29 m slip and squarings are alike after squaring^2 b / (pi K) turns: 6 at 0.013 rad.
+  EXPECT_EQ(turns(0.013), 6);
+  EXPECT_EQ(turns(0.035), 10) << "longer turns would hardly be better";
+  WallWishes loose;
+  loose.noise.squaring_rad = 0.0175;
+  EXPECT_LE(plan_course(loose, kNominal).expected.b, 1e-3);
+}
+
 TEST(WallPlan, BeginsWithShortMovesForARobotThatNobodyHasCalibrated) {
   const WallCourse course = plan_course({}, kNominal);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(course.moves[i].kind, Kind::repeat);

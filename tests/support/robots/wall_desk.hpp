@@ -27,6 +27,15 @@ inline sim::Config robot_before_a_wall(std::uint64_t seed) {
   return config;
 }
 
+/// Coarse targets: a calibration of two minutes.
+inline wall::WallPlan quick_plan() {
+  wall::WallPlan plan;
+  plan.targets = {1e-3, 3e-3};
+  plan.line_m = 2;
+  plan.gap_m = 1;
+  return plan;
+}
+
 /// Puts the robot in front of the wall by eye, and reads the ruler to the millimetre, with half a millimetre of error.
 class WallDesk {
  public:

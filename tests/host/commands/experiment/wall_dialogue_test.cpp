@@ -76,6 +76,23 @@ TEST(WallDialogue, TakesNoYesForAGapThatCannotBe) {
   EXPECT_THAT(person.asked[0], HasSubstr("which no calibration mends"));
 }
 
+TEST(WallDialogue, EndsWithTheGyroAndHowTheRobotLearnsItsScale) {
+  wall::WallResult result;
+  result.estimate = wall::estimate_wall({}, {1, 1, 0.29});
+  EXPECT_THAT(wall_result_text(result), testing::Not(HasSubstr("gyro")));
+  result.gyro.emplace();
+  result.gyro->by = experiment::GyroReference::wall;
+  result.gyro->scale = {1.0125, 0.0004, 1, 1};
+  result.gyro->against_wheels.biases = {{"series 1", 0.01, 0.001}};
+  result.robot.gyro_scale = 0.99;
+  const std::string text = wall_result_text(result);
+  EXPECT_THAT(text, HasSubstr("1.01250 ± 0.00040"));
+  EXPECT_THAT(text, HasSubstr("gyro_scale=1.00238")) << "what was loaded times what was found";
+  EXPECT_LE(support::widest_line(text), 80U) << text;
+  result.gyro->scale.scale = -1;
+  EXPECT_THAT(wall_result_text(result), HasSubstr("gyro_axis"));
+}
+
 TEST(WallDialogue, NamesEveryMove) {
   using Kind = WallMove::Kind;
   EXPECT_EQ(title_of({Kind::repeat, 0.08, 0, 0}), "squaring once more");

@@ -68,7 +68,7 @@ TEST(GyroRuns, GiveTheScaleByATrackerWhoseClockIsItsOwn) {
   const RunSet set = runs_of(calibration::gyro_squares(gyro, 11));
   const auto found = calibrate_gyro(set, calibrated(set));
   ASSERT_TRUE(found);
-  EXPECT_TRUE(found->by_truth);
+  EXPECT_EQ(found->by, GyroReference::truth);
   EXPECT_NEAR(found->scale.scale, gyro.scale, 4 * found->scale.se);
   EXPECT_LT(found->scale.se, 5e-4);
   EXPECT_NEAR(found->against_wheels.lag_s, gyro.lag_s, 4 * found->against_wheels.lag_se_s);
