@@ -16,7 +16,7 @@ find_package(Threads REQUIRED)
 include(GoogleTest)
 
 # How the tests' own code is compiled: not optimised, because most of what a test costs is compiling it. What it calls is
-# optimised as ever. Linked last, so that it overrides astro_compile.
+# optimised as ever, by the way the programs are linked. Linked last, so that it overrides astro_compile.
 add_library(astro_test_compile INTERFACE)
 target_compile_options(astro_test_compile INTERFACE -O0)
 # So that ccache can keep what includes a precompiled header.
@@ -53,7 +53,9 @@ function(astro_test name)
   target_link_libraries(${name}.test PRIVATE astro_compile ${arg_DEPENDS} ${arg_LIBRARIES} tests.support.places
     GTest::gmock GTest::gtest_main Threads::Threads astro_test_compile)
   target_precompile_headers(${name}.test REUSE_FROM astro_test_headers)
-  set_target_properties(${name}.test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  set(linker ${CMAKE_SOURCE_DIR}/cmake/link_optimised_first.sh)
+  set_target_properties(${name}.test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
+    CXX_LINKER_LAUNCHER ${linker} LINK_DEPENDS ${linker})
   # The precompiled headers are not optimised, and GCC refuses to mix. -O1: more finds warnings that are none in checks.
   set_source_files_properties(${arg_OPTIMISED} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON
     COMPILE_OPTIONS $<IF:$<BOOL:${ASTROLABE_SANITIZE}>,-O1,-O2>)

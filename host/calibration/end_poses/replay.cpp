@@ -12,14 +12,14 @@ EndPose replay_square(double side_m, Sense sense, const WheelFactors& odometry, 
   const double left = truth.c_l / odometry.c_l;
   const double sign = sign_of(sense);
   const double spin_m = sign * odometry.b_m * std::numbers::pi / 4;
-  EndPose pose;
+  EndPose side;
   const auto follow = [&](double right_m, double left_m) {
-    advance(pose, right_m, left_m, effective_wheelbase_m(right_m, left_m, truth));
+    advance(side, right_m, left_m, effective_wheelbase_m(right_m, left_m, truth));
   };
-  for (int leg = 0; leg < 4; ++leg) {
-    follow(side_m * right, side_m * left);
-    follow(spin_m * right, -spin_m * left);
-  }
+  follow(side_m * right, side_m * left);
+  follow(spin_m * right, -spin_m * left);
+  const EndPose two_sides = side * side;
+  EndPose pose = two_sides * two_sides;
   pose.theta_rad -= sign * 2 * std::numbers::pi;
   return pose;
 }

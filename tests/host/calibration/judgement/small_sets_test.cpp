@@ -12,6 +12,7 @@
 #include "host/calibration/likelihood/likelihood_problem.hpp"
 #include "host/calibration/motion/arc.hpp"
 #include "tests/host/calibration/ml_drives.hpp"
+#include "tests/support/base/thorough.hpp"
 
 // Sets of a few drives, whose held-out fits see less than the whole.
 namespace astro::calibration {
@@ -19,8 +20,6 @@ namespace {
 
 using simulation::study::Course;
 using simulation::study::DriveModel;
-
-constexpr int kRobots = 10;
 
 /// Two turns, a little wider here and narrower there: the wheels of a real robot do not keep their ratio exactly, so one circle
 /// alone separates ratio and wheelbase, badly.
@@ -150,12 +149,13 @@ struct Rates {
 };
 
 TEST(SmallSets, AreCalledBetterAndNotBetterAsUnseenDrivesTurnOut) {
+  const auto robots = static_cast<std::uint64_t>(support::how_often(3, 10));
   Rates all;
   for (const SmallSet& set : small_sets()) {
     Rates of_set;
     std::map<Verdict, int> verdicts;
     for (const Carried& carried : kCarried)
-      for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {
+      for (std::uint64_t seed = 1; seed <= robots; ++seed) {
         DriveModel model = robot_of_small_sets();
         const WheelFactors in_use = model.loaded = carried_by(model.actual, carried, seed);
         const std::vector<Trajectory> runs = drives_of(set, model, seed);

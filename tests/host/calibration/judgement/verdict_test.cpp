@@ -183,7 +183,7 @@ WheelFactors slightly_off(const WheelFactors& right, std::uint64_t seed) {
 }
 
 TEST(Verdict, HoldsOnOtherDaysOfRobotsThatDrift) {
-  const int trials = support::how_often(4, 40);
+  const int trials = support::how_often(2, 40);
   Verdicts nominal, near, calibrated;
   Coverage one, two;
   std::uint64_t robots_so_far = 0;

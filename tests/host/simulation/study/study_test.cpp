@@ -98,7 +98,7 @@ TEST_P(MaximumLikelihoodStudy, ReachesTheBoundWithAnHonestCovariance) {
 
 TEST(TyresStudy, ReachesTheBoundOfEAndOfTheFactorsWithAnHonestCovariance) {
   TrialSetup setup;
-  setup.trials = 60;
+  setup.trials = support::how_often(20, 60);
   setup.runs = setup.circles = 2;
   setup.side_m = 1;
   setup.e = 0.02;
