@@ -121,8 +121,8 @@ calibration::Trajectory trajectory_of(const recording::Run& run, const std::stri
         AnalysisProblem::run_without_truth, {name});
   calibration::Trajectory trajectory;
   trajectory.name = name;
-  trajectory.started_s = started_s(run);
   trajectory.wheels = wheels_of(run, name);
+  trajectory.started_s = started_s(run);
   trajectory.wheel_turn_m = std::numbers::pi * nominal_wheel(run.info, name).diameter_m;
   Clock tracker(run.odometry.front().time_us, name, "ground truth");
   for (const recording::TruthSample& sample : run.truth)
