@@ -23,7 +23,7 @@ struct GyroPose {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
   double omega_radps =
-      0;  // mean yaw rate by the gyro over 10 ms, without its bias; NaN while it does not count
+      0;  // mean yaw rate by the gyro over 10 ms, without its bias; NaN while it measures none
 };
 
 struct OdometrySample {

@@ -45,7 +45,8 @@ std::optional<GyroPose> NewGyroPoses::next(const protocol::Telemetry& telemetry)
   if (!pose || pose->time_us == last_us_) return std::nullopt;
   last_us_ = pose->time_us;
   GyroPose recorded = *pose;
-  if (telemetry.fused.gyro != protocol::GyroState::running)
+  using protocol::GyroState;
+  if (telemetry.fused.gyro != GyroState::running && telemetry.fused.gyro != GyroState::learning)
     recorded.omega_radps = std::numeric_limits<double>::quiet_NaN();
   return recorded;
 }
