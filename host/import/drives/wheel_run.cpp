@@ -83,7 +83,7 @@ void refuse_leaps(const std::string& name, const WheelTrack& track, const Counte
   }
 }
 
-/// Takes ownership of the samples, so that they are freed at the end: an hour at 1 kHz has 90 MB of them, and
+/// Takes ownership of the samples, so that they are freed as they are converted: an hour at 1 kHz has 90 MB of them, and
 /// twice as much odometry.
 std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samples, const Counter& counter,
                                                    const RobotGeometry& geometry) {
@@ -95,7 +95,11 @@ std::vector<recording::OdometrySample> odometry_of(std::vector<WheelSample> samp
   recording::OdometrySample sample;
   Pose2 pose;
   std::int64_t left = 0, right = 0;
-  for (const WheelSample& at : samples) {
+  std::ranges::reverse(samples);
+  const std::size_t half = samples.size() / 2;
+  for (; !samples.empty(); samples.pop_back()) {
+    if (samples.size() == half) samples.shrink_to_fit();
+    const WheelSample& at = samples.back();
     const std::int64_t new_left = counter.counts(at.left - start.left),
                        new_right = counter.counts(at.right - start.right);
     const std::int64_t time_us = whole_microseconds(at.time_ns);
