@@ -10,7 +10,7 @@ namespace astro::sim {
 namespace {
 
 constexpr std::uint64_t kStream = 0x3A11, kPlayStream = 0x3A12;  // wheels use 0 and 1, the id 0x1D
-constexpr double kAway_m = 0.03;
+constexpr double kAway_m = 0.03;       // from the wall, a front with play settles anew
 constexpr double kGrain_m = 0.1;       // between the points at which the surface is drawn
 constexpr double kSliding_Nspm = 500;  // below its limit friction is viscous, so that it has no jump at rest
 

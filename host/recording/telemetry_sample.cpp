@@ -16,6 +16,13 @@ void put_pose(auto& sample, const auto& from) {
   sample.theta_rad = 2 * std::numbers::pi * (from.turns + static_cast<double>(from.theta) * kTurn);
 }
 
+/// A saturated gyro that turns further than the wheels shows a kick. If it turns less far than they do, its rate is zero.
+bool measures(const protocol::FusedGroup& fused) {
+  using State = protocol::GyroState;
+  return fused.gyro == State::running || fused.gyro == State::learning ||
+         (fused.gyro == State::saturated && fused.rate_uradps != 0);
+}
+
 }  // namespace
 
 OdometrySample to_sample(const protocol::Telemetry& telemetry) {
@@ -41,14 +48,11 @@ std::optional<GyroPose> gyro_pose(const protocol::Telemetry& telemetry) {
 }
 
 std::optional<GyroPose> NewGyroPoses::next(const protocol::Telemetry& telemetry) {
-  const std::optional<GyroPose> pose = gyro_pose(telemetry);
+  std::optional<GyroPose> pose = gyro_pose(telemetry);
   if (!pose || pose->time_us == last_us_) return std::nullopt;
   last_us_ = pose->time_us;
-  GyroPose recorded = *pose;
-  using protocol::GyroState;
-  if (telemetry.fused.gyro != GyroState::running && telemetry.fused.gyro != GyroState::learning)
-    recorded.omega_radps = std::numeric_limits<double>::quiet_NaN();
-  return recorded;
+  if (!measures(telemetry.fused)) pose->omega_radps = std::numeric_limits<double>::quiet_NaN();
+  return pose;
 }
 
 GyroSlip to_sample(const protocol::SlipFound& found) {

@@ -1,20 +1,12 @@
 #include "host/wall/move_recorder.hpp"
 
+#include <cmath>
+
 #include "host/base/utc.hpp"
 
 namespace astro::wall {
 
 using protocol::Telemetry;
-
-namespace {
-
-/// A saturated gyro that turns further than the wheels shows a kick. If it turns less far than they do, its rate is zero.
-bool measures(const protocol::FusedGroup& fused) {
-  using State = protocol::GyroState;
-  return fused.gyro == State::running || (fused.gyro == State::saturated && fused.rate_uradps != 0);
-}
-
-}  // namespace
 
 MoveRecorder::MoveRecorder(robot::Client& client, recording::RunInfo info)
     : info_(std::move(info)),
@@ -34,7 +26,8 @@ void MoveRecorder::add(const Telemetry& telemetry) {
   if ((telemetry.fields & kFields) != kFields) return;
   run_.odometry.push_back(recording::to_sample(telemetry));
   auto pose = gyro_poses_.next(telemetry);
-  if (!pose || !measures(telemetry.fused)) return;
+  if (!pose || !std::isfinite(pose->omega_radps)) return;
+  if (telemetry.fused.gyro == protocol::GyroState::learning) return;  // its bias is not known
   if (!first_bias_uradps_) first_bias_uradps_ = telemetry.fused.bias_uradps;
   pose->omega_radps += 1e-6 * (telemetry.fused.bias_uradps - *first_bias_uradps_);
   run_.gyro.push_back(*pose);
