@@ -32,6 +32,12 @@ if(ASTROLABE_SANITIZE)
     -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow,nonnull-attribute,returns-nonnull-attribute)
 endif()
 
+# Some hundred test programs are linked, each from most of the libraries: mold does it in a fourth of the time.
+find_program(ASTROLABE_MOLD mold)
+if(ASTROLABE_MOLD)
+  target_link_options(astro_test_compile INTERFACE -fuse-ld=mold)
+endif()
+
 # What nearly every test includes, read once. A test still includes what it uses.
 file(WRITE ${CMAKE_BINARY_DIR}/astro_test_headers.cpp "")
 add_library(astro_test_headers OBJECT ${CMAKE_BINARY_DIR}/astro_test_headers.cpp)
