@@ -194,7 +194,7 @@ TEST_P(HostileSamples, AreReadWhole) {
 
 TEST_P(HostileSamples, OfWhichManyMutationsAreReadOrRefusedByNameAndPlace) {
   constexpr unsigned kSeed = 20'261'123;
-  const int mutations = support::how_often(120, 1200);
+  const int mutations = support::how_many_alike(support::how_often(120, 1200));
   SCOPED_TRACE(sample_.format + ", seed " + std::to_string(kSeed));
   const Taken taken = measured([&] {
     support::Mutator mutator(kSeed);
@@ -220,9 +220,9 @@ TEST_P(HostileSamples, CutAtAnyPlaceAreReadOrRefusedByName) {
   SCOPED_TRACE(sample_.format);
   const Taken taken = measured([&] {
     Importer importer(folder_.path());
-    constexpr std::size_t kCuts = 200;
-    for (std::size_t i = 0; i < kCuts; ++i) {
-      test::save(at(sample_.name), ByteView(sample_.bytes).first(i * sample_.bytes.size() / kCuts));
+    const auto cuts = static_cast<std::size_t>(support::how_many_alike(200));
+    for (std::size_t i = 0; i < cuts; ++i) {
+      test::save(at(sample_.name), ByteView(sample_.bytes).first(i * sample_.bytes.size() / cuts));
       importer.take(at(sample_.name), sample_.holds);
     }
     expect_fast(importer);
