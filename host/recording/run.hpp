@@ -22,8 +22,9 @@ namespace astro::recording {
 struct GyroPose {
   std::int64_t time_us = 0;
   double x_m = 0, y_m = 0, theta_rad = 0;  // theta continuous, not wrapped
-  double omega_radps =
-      0;  // mean yaw rate by the gyro over 10 ms, without its bias; NaN while it measures none
+  /// Mean yaw rate by the gyro over 10 ms, less a bias that is the same in the whole recording: the one that the robot knew when it
+  /// began. NaN while the gyro measures none.
+  double omega_radps = 0;
 };
 
 struct OdometrySample {

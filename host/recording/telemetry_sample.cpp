@@ -55,6 +55,14 @@ std::optional<GyroPose> NewGyroPoses::next(const protocol::Telemetry& telemetry)
   return pose;
 }
 
+std::optional<GyroPose> RecordedGyroPoses::next(const protocol::Telemetry& telemetry) {
+  std::optional<GyroPose> pose = new_poses_.next(telemetry);
+  if (!pose) return std::nullopt;
+  if (!bias_uradps_) bias_uradps_ = telemetry.fused.bias_uradps;
+  pose->omega_radps += 1e-6 * (telemetry.fused.bias_uradps - *bias_uradps_);
+  return pose;
+}
+
 GyroSlip to_sample(const protocol::SlipFound& found) {
   constexpr double kUnit_rad = 1e-4;
   return {static_cast<std::int64_t>(found.device_time_us), kUnit_rad * found.turn_100urad};

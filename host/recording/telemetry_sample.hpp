@@ -24,4 +24,15 @@ class NewGyroPoses {
   std::optional<std::int64_t> last_us_;
 };
 
+/// The same as a recording has them: from all its rates one bias is taken, the first. The robot goes on to learn its bias, and rates
+/// without the newest one would be those of a gyro whose bias jumps.
+class RecordedGyroPoses {
+ public:
+  std::optional<GyroPose> next(const protocol::Telemetry& telemetry);
+
+ private:
+  NewGyroPoses new_poses_;
+  std::optional<std::int32_t> bias_uradps_;
+};
+
 }  // namespace astro::recording

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "host/recording/run.hpp"
@@ -11,10 +9,7 @@
 namespace astro::wall {
 
 /// Records odometry and gyro of a robot by the telemetry that a WheelWatch has asked for. There are no gyro samples while the gyro
-/// does not measure, or the robot has not stood long enough to know its bias.
-///
-/// From the rates of all its recordings the same bias is taken, the first that the robot knows. The robot goes on to learn its bias, and
-/// rates without the newest one would seem to be those of a bias that walks.
+/// does not measure. From the rates of all its recordings the same bias is taken.
 class MoveRecorder {
  public:
   /// `info`: of each recording; the recorder adds when it began.
@@ -28,8 +23,7 @@ class MoveRecorder {
 
   recording::RunInfo info_;
   recording::Run run_;
-  recording::NewGyroPoses gyro_poses_;
-  std::optional<std::int32_t> first_bias_uradps_;
+  recording::RecordedGyroPoses gyro_poses_;
   robot::Subscription subscription_;
 };
 

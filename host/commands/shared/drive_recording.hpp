@@ -49,7 +49,7 @@ class DriveRecording {
   bool open_ = true;
   std::optional<std::int64_t> first_us_;  // of the odometry
   std::exception_ptr failure_;
-  recording::NewGyroPoses gyro_poses_;
+  recording::RecordedGyroPoses gyro_poses_;
   robot::Subscription slips_, gyro_;
 };
 

@@ -162,7 +162,7 @@ class Collector {
   std::deque<lidar::Scan> early_scans_;       // the same of scans
   std::optional<std::int64_t> first_us_, newest_truth_us_, newest_scan_us_, stand_from_us_;
   std::int64_t newest_us_ = 0;
-  recording::NewGyroPoses gyro_poses_;
+  recording::RecordedGyroPoses gyro_poses_;
   robot::Subscription subscription_, slips_;
 };
 

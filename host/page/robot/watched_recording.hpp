@@ -31,7 +31,7 @@ class WatchedRecording {
   std::string file_;  // without the folder
   recording::RunInfo info_;
   recording::RunWriter writer_;
-  recording::NewGyroPoses gyro_poses_;
+  recording::RecordedGyroPoses gyro_poses_;
   std::optional<std::int64_t> last_us_;
   std::optional<Error> failure_;
 };

@@ -36,5 +36,24 @@ TEST(NewGyroPoses, KeepTheKickThatSaturatesAGyro) {
   EXPECT_TRUE(std::isnan(recorded_radps(GyroState::saturated, 0)));
 }
 
+// A robot that learns its bias of 0.02 rad/s, and then that it is 0.021, while it turns at 0.5 rad/s all the time.
+TEST(RecordedGyroPoses, HaveTheSameBiasWhateverTheRobotLearns) {
+  for (const std::int32_t first : {0, 20'000}) {
+    RecordedGyroPoses poses;
+    std::uint64_t time_us = 0;
+    for (const std::int32_t bias : {first, 20'000, 21'000}) {
+      protocol::Telemetry telemetry;
+      telemetry.fields = protocol::Telemetry::kFused;
+      telemetry.fused.gyro = bias == 0 ? GyroState::learning : GyroState::running;
+      telemetry.fused.time_us = time_us += 10'000;
+      telemetry.fused.rate_uradps = 520'000 - bias;
+      telemetry.fused.bias_uradps = bias;
+      const auto pose = poses.next(telemetry);
+      ASSERT_TRUE(pose);
+      EXPECT_DOUBLE_EQ(pose->omega_radps, 1e-6 * (520'000 - first));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace astro::recording

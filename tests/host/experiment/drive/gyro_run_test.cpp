@@ -62,6 +62,24 @@ TEST_F(GyroRun, HasThePoseWithTheGyroBesideThatOfTheWheels) {
   EXPECT_TRUE(notices.empty());
 }
 
+// Halves of a second of rest before and after the drive, in which a gyro of 0.025 degrees a second per root hertz is right to 0.0006 rad/s.
+TEST(GyroRunOfARobotThatDoesNotKnowItsBias, HasTheSameBiasFromItsStartToItsEnd) {
+  sim::Config config = with_gyro();
+  config.gyro->bias_radps = 0.02;
+  Desk desk{config};
+  robot::upload(desk.client, {{"gyro_axis", 3.0}});  // it learns its bias in the second after that
+  const recording::Run run = record_run(desk.client, desk.truth, robot::line(0.3, {0.2, 1}), {}, {});
+  const std::size_t rest = 30, count = run.gyro.size();
+  ASSERT_GT(count, 2 * rest);
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < rest; ++i) {
+    before += run.gyro[i].omega_radps / static_cast<double>(rest);
+    after += run.gyro[count - 1 - i].omega_radps / static_cast<double>(rest);
+  }
+  EXPECT_NEAR(before, after, 0.003);
+  EXPECT_NEAR(before, config.gyro->bias_radps, 0.003);
+}
+
 TEST_F(GyroRun, RemembersAndTellsAKickWhichNoWheelHasSeen) {
   constexpr double kKick_rad = 0.2;
   int samples = 0;
