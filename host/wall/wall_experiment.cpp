@@ -72,10 +72,9 @@ class Experiment {
     try {
       auto found = calibrate_gyro(runs_, journal_, estimate_);
       if (!found && robot_.uses_gyro)
-        throw Error(
-            "it measured on no turn between two squarings: see that it is connected, and let the robot stand "
-            "for a second after its start",
-            calibration::GyroProblem::no_rates);
+        throw Error("it measured on no turn between two squarings: see that it is connected",
+                    calibration::GyroProblem::no_rates);
+      if (found) found->loaded_scale = robot_.gyro_scale;
       return found;
     } catch (const Error& error) {
       hooks_.drive.notice(error.in("the gyro is not calibrated: "));

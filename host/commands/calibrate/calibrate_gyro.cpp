@@ -10,6 +10,7 @@
 #include "host/commands/base/advice.hpp"
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/calibrate/commands.hpp"
+#include "host/commands/shared/gyro_view.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/commands/shared/unused_choices.hpp"

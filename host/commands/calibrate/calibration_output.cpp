@@ -12,6 +12,7 @@
 #include "host/base/error.hpp"
 #include "host/base/text/columns.hpp"
 #include "host/commands/shared/calibration_view.hpp"
+#include "host/commands/shared/gyro_view.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"
 #include "host/console/program.hpp"
@@ -24,36 +25,6 @@
 #include "host/import/drives/drive_report.hpp"
 
 namespace astro::commands {
-namespace {
-
-std::string gyro_text(const experiment::GyroResult& gyro) {
-  constexpr double kSurely = 2;  // standard errors
-  std::string text = '\n' + wrapped(experiment::gyro_sentence(gyro));
-  if (gyro.parameter && std::abs(gyro.scale.scale - 1) > kSurely * gyro.scale.se)
-    text += wrapped(fmt::format("To load it: 'astrolabe params set gyro_scale={:.5f}'.", *gyro.parameter));
-  return text + slips_text(gyro.against_wheels, gyro.names);
-}
-
-}  // namespace
-
-std::string slips_text(const calibration::GyroAgainstWheels& wheels, const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& slip : experiment::slip_sentences(wheels, names))
-    text += wrapped("Take care: " + slip + '.');
-  return text;
-}
-
-std::optional<experiment::GyroResult> gyro_of(const experiment::RunSet& set,
-                                              const experiment::Calibration& found) {
-  if (found.end_poses() != nullptr) return std::nullopt;
-  try {
-    return experiment::calibrate_gyro(set, found);
-  } catch (const Error& error) {
-    console::say(error.in("the gyro is not calibrated: ").sentence);
-    return std::nullopt;
-  }
-}
-
 void add_output(console::Command command, CalibrationOutput& output) {
   command.add_option("--out", output.file, "write the result here, for 'astrolabe upload'");
   command.add_flag("--json", output.json, "print the result as one JSON object");
@@ -84,7 +55,7 @@ void put_out(const experiment::Calibration& found, const CalibrationOutput& outp
     print_json(json);
   } else {
     write(calibration_text(found));
-    if (gyro) write(gyro_text(*gyro));
+    if (gyro) write('\n' + gyro_text(*gyro));
   }
   if (experiment::advises_against(found.judgement.verdict)) console::answer_no();
 }

@@ -29,13 +29,6 @@ using MakeReport = std::function<report::ReportInput()>;
 void put_out(const experiment::Calibration& found, const CalibrationOutput& output,
              const MakeReport& make_report = {}, const std::optional<experiment::GyroResult>& gyro = {});
 
-/// Where the robot slipped by its gyro, a warning for each.
-std::string slips_text(const calibration::GyroAgainstWheels& wheels, const std::vector<std::string>& names);
-
-/// The gyro of the robot that drove, if it has one. One that cannot be calibrated is told, and the wheels' result counts without it.
-std::optional<experiment::GyroResult> gyro_of(const experiment::RunSet& set,
-                                              const experiment::Calibration& found);
-
 /// The same of the drives from which it was found. Throws console::WrongUsage if a report is named and the method takes end poses.
 void put_out(const experiment::Calibration& found, const experiment::RunSet& set,
              const CalibrationOutput& output);

@@ -11,6 +11,7 @@
 
 #include "host/commands/base/advice.hpp"
 #include "host/commands/shared/film_truth.hpp"
+#include "host/commands/shared/gyro_view.hpp"
 #include "host/commands/shared/option_words.hpp"
 #include "host/commands/shared/robot_view.hpp"
 #include "host/console/console.hpp"

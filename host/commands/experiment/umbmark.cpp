@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "host/commands/shared/calibration_view.hpp"
 #include "host/commands/shared/connection.hpp"
 #include "host/commands/shared/film_truth.hpp"
+#include "host/commands/shared/gyro_view.hpp"
 #include "host/commands/shared/limit_notes.hpp"
 #include "host/commands/shared/method_option.hpp"
 #include "host/commands/shared/parameter_load.hpp"
@@ -141,11 +143,21 @@ void run_with_wall(UmbmarkOptions& options) {
            {options.out, truth::length_unit_named(options.unit), options.yes, options.force, options.json});
 }
 
+/// By the newest phase from which a calibration was found.
+std::optional<experiment::GyroResult> newest_gyro(const experiment::Results& results) {
+  const auto phase = std::ranges::find_if(results.phases.rbegin(), results.phases.rend(),
+                                          [](const auto& each) { return each.calibration.has_value(); });
+  if (phase == results.phases.rend()) return std::nullopt;
+  return gyro_of(phase->recordings->set(), *phase->calibration);
+}
+
 /// Prints what came out. If the experiment ended before its last phase, its drives advise against loading the factors.
 void conclude(const experiment::Results& results, const std::filesystem::path& report, bool as_json) {
   const experiment::Calibration* const not_loaded = results.not_loaded();
+  const std::optional<experiment::GyroResult> gyro = newest_gyro(results);
   if (as_json) {
     nlohmann::json json = to_json(results);
+    if (gyro) json["gyro"] = experiment::to_json(*gyro);
     json["report"] = report.string();
     print_json(json);
   } else {
@@ -157,6 +169,7 @@ void conclude(const experiment::Results& results, const std::filesystem::path& r
     if (not_loaded != nullptr)
       write(wrapped(experiment::judgement_sentence(*not_loaded) +
                     " It was not loaded; --force loads it all the same."));
+    if (gyro) write(gyro_text(*gyro));
     print("Report: " + report.string());
   }
   if (not_loaded != nullptr) console::answer_no();

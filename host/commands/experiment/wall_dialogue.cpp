@@ -9,8 +9,8 @@
 #include "host/base/text/columns.hpp"
 #include "host/base/text/numbers.hpp"
 #include "host/base/text/trimmed.hpp"
+#include "host/commands/shared/gyro_view.hpp"
 #include "host/console/console.hpp"
-#include "host/experiment/analysis/gyro_runs.hpp"
 #include "host/experiment/analysis/likelihood_sentences.hpp"
 #include "host/wall/wall_programme.hpp"
 
@@ -61,14 +61,6 @@ std::string ruler_text(const wall::WallPlan& plan, int readings) {
   const char* times = readings == 1 ? "once" : readings == 2 ? "twice" : nullptr;
   return fmt::format("It asks {} for the gap between the wall and its front, of about {:g} m. ",
                      times != nullptr ? times : fmt::format("{} times", readings), plan.gap_m);
-}
-
-/// How the robot gets the scale of its gyro. Errors of that size matter after some turns, so five digits are enough.
-std::string gyro_advice(const wall::WallResult& result) {
-  if (result.gyro->scale.scale < 0)
-    return "'astrolabe params set gyro_axis' with the other sign makes it counter-clockwise.";
-  return fmt::format("'astrolabe params set gyro_scale={:.5f}' lets the robot know.",
-                     result.robot.gyro_scale * result.gyro->scale.scale);
 }
 
 }  // namespace
@@ -170,7 +162,7 @@ std::string wall_result_text(const wall::WallResult& result) {
       result.journal.driven_s / 60, 1000 * found.noise.squaring_rad, 1000 * std::sqrt(found.noise.K_m),
       scale_text(found.scale));
   std::string text = console::table(rows) + '\n' + wrapped(driven);
-  if (result.gyro) text += wrapped(experiment::gyro_sentence(*result.gyro) + ' ' + gyro_advice(result));
+  if (result.gyro) text += gyro_text(*result.gyro);
   if (!result.reached)
     text +=
         wrapped(fmt::format("The wanted precision (E_d {}, b {}) was not reached in {:g} minutes; more of "

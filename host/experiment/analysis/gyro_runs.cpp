@@ -103,16 +103,14 @@ std::optional<GyroResult> calibrate_gyro(const RunSet& set, const Calibration& f
     const calibration::Trajectory trajectory = trajectory_of(set.runs[i], set.names[i]);
     drives.back().truth = headings(trajectory.truth, trajectory, *found.ml());
   }
-  GyroResult result{
-      calibration::compare_gyro(drives, found.factors), {}, GyroReference::wheels, {}, set.names};
+  GyroResult result{calibration::compare_gyro(drives, found.factors), {}, GyroReference::wheels, set.names};
   const calibration::GyroAgainstWheels& wheels = result.against_wheels;
   const auto by_truth = calibration::gyro_scale_by_truth(drives, found.factors, wheels);
   if (by_truth) result.by = GyroReference::truth;
   result.scale = by_truth.value_or(calibration::GyroScale{
       wheels.product, std::hypot(wheels.product_se, wheels.product * turn_error(found)), wheels.chi_square,
       wheels.degrees_of_freedom});
-  if (const auto loaded = loaded_scale(set); loaded && result.scale.scale > 0)
-    result.parameter = *loaded * result.scale.scale;
+  result.loaded_scale = loaded_scale(set);
   return result;
 }
 
@@ -129,6 +127,11 @@ GyroAlone factors_by_gyro(const RunSet& set, double scale_error) {
   result.E_d_se = wheels.difference_se * E_d;
   result.b_se_m = result.factors.b_m * std::hypot(wheels.product_se / wheels.product, scale_error);
   return result;
+}
+
+std::optional<double> GyroResult::parameter() const {
+  if (!loaded_scale || scale.scale <= 0) return std::nullopt;
+  return *loaded_scale * scale.scale;
 }
 
 std::string gyro_sentence(const GyroResult& result) {
@@ -201,7 +204,7 @@ nlohmann::json to_json(const GyroResult& result) {
   json["scale"] = number(std::abs(result.scale.scale));
   json["scale_se"] = number(result.scale.se);
   json["sign"] = result.scale.scale < 0 ? -1 : 1;
-  if (result.parameter) json["gyro_scale"] = number(*result.parameter);
+  if (const auto parameter = result.parameter()) json["gyro_scale"] = number(*parameter);
   json["scale_by"] = names_of(result.by).in_json;
   return json;
 }

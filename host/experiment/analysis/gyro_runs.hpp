@@ -15,12 +15,18 @@
 namespace astro::experiment {
 
 /// The wheels and the gyro of a run, whoever recorded it, without truth; no rates if it has no gyro. Times are seconds since its first
-/// odometry sample. The rates of our own robots are those without the bias and the scale that the robot knew.
+/// odometry sample. The rates of our own robots are those with the loaded scale, less a bias that is the same in the whole drive.
 calibration::GyroDrive gyro_drive(const recording::Run& run, const std::string& name);
 
 /// Where the robot of each run turned without its wheels, on the clock of its trajectory: by the gyro, with the factors that the first
 /// run had loaded. Nothing where no gyro can be compared with the wheels.
 std::vector<std::vector<calibration::Slip>> slips_by_gyro(const RunSet& set);
+
+/// Each of `drives`, made of the runs in their order, with the slips of its run.
+void add_slips(auto& drives, const RunSet& set) {
+  const std::vector<std::vector<calibration::Slip>> slips = slips_by_gyro(set);
+  for (std::size_t i = 0; i < slips.size(); ++i) drives[i].slips = slips[i];
+}
 
 /// What shows the gyro's scale: the headings of a tracker; the wheels with the factors found, whose error is part of it; whole turns
 /// between two squarings against a wall.
@@ -31,10 +37,12 @@ struct GyroResult {
   /// The turn that the gyro measures over the true one. Of our own robots on top of the scale that was loaded.
   calibration::GyroScale scale;
   GyroReference by = GyroReference::wheels;
-  /// What our own robot should have as its parameter gyro_scale: the loaded one times `scale`. Nothing of other robots, if drives had
-  /// different ones, or if the gyro turns the other way, which is a matter of gyro_axis.
-  std::optional<double> parameter;
   std::vector<std::string> names;  // of the drives
+  /// The parameter gyro_scale that our own robot had. Nothing of other robots, or if drives had different ones.
+  std::optional<double> loaded_scale = {};
+
+  /// What gyro_scale should be. Nothing if it is not known what it was, or if the gyro turns the other way, which is a matter of gyro_axis.
+  std::optional<double> parameter() const;
 };
 
 /// Nothing if no run has a gyro. `found`: by maximum likelihood or by scans, from these runs. Throws astro::Error of a

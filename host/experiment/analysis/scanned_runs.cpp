@@ -28,8 +28,7 @@ std::vector<lidar::ScannedDrive> scanned_drives(const RunSet& set) {
   std::vector<lidar::ScannedDrive> drives;
   for (std::size_t i = 0; i < set.runs.size(); ++i)
     drives.push_back(scanned_drive(set.runs[i], set.names[i]));
-  const std::vector<std::vector<calibration::Slip>> slips = slips_by_gyro(set);
-  for (std::size_t i = 0; i < slips.size(); ++i) drives[i].slips = slips[i];
+  add_slips(drives, set);
   return drives;
 }
 

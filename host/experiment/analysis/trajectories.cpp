@@ -147,8 +147,7 @@ void extend_trajectories(std::vector<calibration::Trajectory>& trajectories, con
     if (!set.sessions.empty()) trajectory.session = set.sessions[i];
     trajectories.push_back(std::move(trajectory));
   }
-  const std::vector<std::vector<calibration::Slip>> slips = slips_by_gyro(set);
-  for (std::size_t i = 0; i < slips.size(); ++i) trajectories[i].slips = slips[i];
+  add_slips(trajectories, set);
 }
 
 void require_comparable(const recording::RunInfo& a, const std::string& a_name, const recording::RunInfo& b,

@@ -95,8 +95,7 @@ void read_runs(std::span<const DriveFiles> files, const ImportChoices& choices, 
   all.loaded = experiment::loaded_factors(last, imported.set.names.back());
   all.wheel = experiment::nominal_wheel(last, imported.set.names.back());
   all.set = std::move(imported.set);
-  const std::vector<std::vector<calibration::Slip>> slips = experiment::slips_by_gyro(all.set);
-  for (std::size_t i = 0; i < slips.size(); ++i) all.drives[i].slips = slips[i];
+  experiment::add_slips(all.drives, all.set);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(WallDialogue, EndsWithTheGyroAndHowTheRobotLearnsItsScale) {
   result.gyro->by = experiment::GyroReference::wall;
   result.gyro->scale = {1.0125, 0.0004, 1, 1};
   result.gyro->against_wheels.biases = {{"series 1", 0.01, 0.001}};
-  result.robot.gyro_scale = 0.99;
+  result.gyro->loaded_scale = 0.99;
   const std::string text = wall_result_text(result);
   EXPECT_THAT(text, HasSubstr("1.01250 ± 0.00040"));
   EXPECT_THAT(text, HasSubstr("gyro_scale=1.00238")) << "what was loaded times what was found";

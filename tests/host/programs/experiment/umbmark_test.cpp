@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "tests/support/base/columns.hpp"
 #include "tests/support/base/json.hpp"
 #include "tests/support/programs/program.hpp"
 #include "tests/support/robots/watched_drive.hpp"
@@ -114,6 +115,16 @@ TEST(Umbmark, NamesEOnTheTerminalInTheReportInTheFileAndOnTheRobot) {
                 judged[1]["runs"][i]["name"].get<std::string>().c_str(), 1000 * heading(1),
                 1000 * heading(2));
   }
+}
+
+TEST(Umbmark, EndsWithTheGyroOfARobotThatUsesOne) {
+  const Simulator simulator({"--fast", "--gyro", "--seed", "2"});
+  ASSERT_EQ(astrolabe({"params", "set", "gyro_axis=3", "--port", simulator.port()}).code, 0);
+  const support::Outcome outcome = astrolabe(umbmark(simulator, (simulator.folder() / "x").string()));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("The gyro measures "));
+  EXPECT_THAT(outcome.out, HasSubstr("by the headings of"));
+  EXPECT_LE(support::widest_line(outcome.out), 80U) << outcome.out;
 }
 
 TEST(Umbmark, YesLoadsNothingThatIsNotBetterAndEndsWithAReportOfWhatWasDriven) {
