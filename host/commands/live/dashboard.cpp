@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 struct DashboardOptions {
   ConnectionOptions connection;
   ListenOption listen{"8770", {}};
-  fs::path page;
+  fs::path page, recordings = ".";
   bool no_browser = false;
 };
 
@@ -60,6 +60,7 @@ dashboard::Settings settings_of(const DashboardOptions& options) {
     return open_port({path, baud});
   };
   settings.port = options.connection.port;
+  settings.recordings = options.recordings;
   settings.notice = [](const Remark& remark) { console::say(in_words(remark)); };
   return settings;
 }
@@ -128,6 +129,10 @@ void add_dashboard(console::Command app) {
       "says the same");
   command
       .add_option("--page", options->page, "the page's files (default: those that were\ninstalled or built)")
+      .type_name("FOLDER");
+  command
+      .add_option("--recordings", options->recordings,
+                  "where recordings go at the end that no page\nhas saved (default: here)")
       .type_name("FOLDER");
   command.add_flag("--no-browser", options->no_browser, "print the link and open no browser");
   console::examples(command, {"astrolabe dashboard", "astrolabe dashboard --port /dev/ttyACM0",

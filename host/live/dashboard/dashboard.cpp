@@ -37,11 +37,14 @@ class Dashboard::Impl {
  public:
   explicit Impl(const Settings& settings)
       : notice_(settings.notice),
+        kept_in_(settings.recordings),
         site_(required_page(settings.page), settings.page_timeout, token_, files_,
               {[this](Question question) { ask(std::move(question)); }, settings.notice}),
         server_(std::in_place, settings.address, site_),
         calls_(settings.ports, files_.folder(), delivery()),
-        robot_(settings.ports, files_.folder(), delivery(), settings.notice) {
+        robot_(settings.ports,
+               {.folder = files_.folder(), .keep = [this](const std::filesystem::path& file) { keep(file); }},
+               delivery(), settings.notice) {
     if (!settings.port.empty()) robot_.ask({0, 0, "robot/open", {{"port", settings.port}}});
     server_->start();
   }
@@ -93,9 +96,18 @@ class Dashboard::Impl {
     if (may_drop) server_->flush();
   }
 
+  void keep(const std::filesystem::path& recording) {
+    try {
+      notice_({"the recording that no page has saved is now " + files_.keep(recording, kept_in_).string()});
+    } catch (const Error& error) {
+      notice_({error.what()});
+    }
+  }
+
   Token token_;
   SessionFiles files_;
   std::function<void(const Remark&)> notice_;
+  std::filesystem::path kept_in_;
   DashboardSite site_;
   std::mutex sending_;
   bool closed_ = false;  // under sending_

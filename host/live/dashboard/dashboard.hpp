@@ -18,12 +18,15 @@ struct Settings {
   std::filesystem::path page;  // the folder of the page's files, with index.html
   page::RobotPorts ports{};    // `list` and `open` are called in two threads
   std::string port{};          // of the robot that is opened at the start; "": the pages choose
+  /// Gets the recordings that no page has saved when the dashboard ends.
+  std::filesystem::path recordings = ".";
   std::function<void(const Remark&)> notice = [](const Remark&) {};  // called in any thread
   /// A page that answers no ping for so long has gone, and a robot that it drives is stopped.
   std::chrono::seconds page_timeout{4};
 };
 
-/// Serves the page, and a robot to it, until it is destroyed; then a robot that a page drives is at rest and disarmed.
+/// Serves the page, and a robot to it, until it is destroyed; then a robot that a page drives is at rest and disarmed, and what was
+/// recorded is kept.
 class Dashboard {
  public:
   /// Throws astro::Error if the address cannot be had, or there is no page in the folder.

@@ -18,10 +18,10 @@ constexpr milliseconds kArmed{2}, kIdle{5}, kNothingOpen{100};
 
 }  // namespace
 
-RobotThread::RobotThread(page::RobotPorts ports, std::filesystem::path folder, Delivery delivery,
+RobotThread::RobotThread(page::RobotPorts ports, page::RecordingPlace recordings, Delivery delivery,
                          std::function<void(const Remark&)> notice)
     : ports_(std::move(ports)),
-      folder_(std::move(folder)),
+      recordings_(std::move(recordings)),
       delivery_(std::move(delivery)),
       notice_(std::move(notice)) {
   const BlockedSignals blocked;  // signals are for the program's own thread
@@ -43,7 +43,7 @@ void RobotThread::ask(Question question) {
 
 void RobotThread::run() {
   const auto tell = [this](page::Page page, const nlohmann::json& event) { delivery_.event(page, 0, event); };
-  page::RobotCalls calls(ports_, folder_, tell, [&] {
+  page::RobotCalls calls(ports_, recordings_, tell, [&] {
     if (const auto question = questions_.pop()) carry_out(calls, *question);
     return ending_.load();
   });

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <thread>
 
@@ -15,9 +14,10 @@ namespace astro::dashboard {
 /// The calls on the robot in a thread of their own: the robot is served whatever a network or a computation does.
 class RobotThread {
  public:
-  RobotThread(page::RobotPorts ports, std::filesystem::path folder, Delivery delivery,
+  /// `recordings`: its `keep` is called in this thread.
+  RobotThread(page::RobotPorts ports, page::RecordingPlace recordings, Delivery delivery,
               std::function<void(const Remark&)> notice);
-  /// A robot that a page drives is at rest and disarmed then.
+  /// A robot that a page drives is at rest and disarmed then, and recordings have ended.
   ~RobotThread();
   RobotThread(const RobotThread&) = delete;
   RobotThread& operator=(const RobotThread&) = delete;
@@ -30,7 +30,7 @@ class RobotThread {
   void carry_out(page::RobotCalls& calls, const Question& question);
 
   page::RobotPorts ports_;
-  std::filesystem::path folder_;
+  page::RecordingPlace recordings_;
   Delivery delivery_;
   std::function<void(const Remark&)> notice_;
   QuestionQueue questions_;

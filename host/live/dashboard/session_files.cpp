@@ -1,5 +1,7 @@
 #include "host/live/dashboard/session_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
@@ -33,7 +35,7 @@ SessionFiles::SessionFiles() {
 
 SessionFiles::~SessionFiles() {
   std::error_code ignored;
-  fs::remove_all(folder_, ignored);
+  if (!stays_) fs::remove_all(folder_, ignored);
 }
 
 std::uint64_t SessionFiles::room() const {
@@ -61,6 +63,19 @@ std::optional<fs::path> SessionFiles::find(const std::string& path) const {
   if (gone || !fs::is_regular_file(real, gone)) return std::nullopt;
   const auto ends = std::mismatch(root.begin(), root.end(), real.begin(), real.end());
   return ends.first == root.end() ? std::optional(real) : std::nullopt;
+}
+
+fs::path SessionFiles::keep(const fs::path& file, const fs::path& to) {
+  fs::path kept = to / file.filename();
+  for (int i = 2; fs::exists(kept); ++i)
+    kept = to / fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string());
+  std::error_code failed;
+  fs::create_directories(to, failed);
+  if (!failed) fs::copy_file(file, kept, failed);
+  if (!failed) return fs::weakly_canonical(kept);
+  stays_ = true;
+  throw Error(fmt::format("{} cannot be written ({}): the recording stays at {}", kept.string(),
+                          failed.message(), file.string()));
 }
 
 std::optional<std::string> percent_decoded(std::string_view text) {

@@ -28,8 +28,13 @@ class SessionFiles {
   /// A file of this session, also in a folder that a call has made; nothing if there is none, or if the path leads elsewhere.
   std::optional<std::filesystem::path> find(const std::string& path) const;
 
+  /// Copies a file of this session into the folder `to`, under a name that nothing has there; answers its path. Throws astro::Error
+  /// if it cannot, and then the files of this session stay.
+  std::filesystem::path keep(const std::filesystem::path& file, const std::filesystem::path& to);
+
  private:
   std::filesystem::path folder_;
+  bool stays_ = false;
 };
 
 /// "%41b" as "Ab"; nothing for a malformed text.

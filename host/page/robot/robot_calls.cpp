@@ -54,11 +54,12 @@ json pose_json(const Pose2& pose) {
 
 }  // namespace
 
-RobotCalls::RobotCalls(RobotPorts ports, std::filesystem::path folder, Tell tell, Meanwhile meanwhile)
+RobotCalls::RobotCalls(RobotPorts ports, RecordingPlace recordings, Tell tell, Meanwhile meanwhile)
     : ports_(std::move(ports)),
-      folder_(std::move(folder)),
+      folder_(recordings.folder),
       tell_(std::move(tell)),
-      meanwhile_(std::move(meanwhile)) {}
+      meanwhile_(std::move(meanwhile)),
+      recordings_(std::move(recordings)) {}
 
 RobotCalls::~RobotCalls() {
   try {
@@ -66,7 +67,6 @@ RobotCalls::~RobotCalls() {
   } catch (const std::exception&) {  // a robot that cannot be reached stops by its own time-out
   }
   try {
-    if (recording_) recording_->close();
     if (robot_) forget_robot();
   } catch (const std::exception&) {  // there is nobody left to be told
   }
@@ -92,6 +92,7 @@ const std::map<std::string_view, json (RobotCalls::*)(Page, const json&)>& Robot
       {"robot/commit", &RobotCalls::commit},
       {"robot/discard", &RobotCalls::discard},
       {"robot/record", &RobotCalls::record},
+      {"robot/recording_saved", &RobotCalls::recording_saved},
       {"robot/export", &RobotCalls::export_parameters},
       {"robot/judge_wiring", &RobotCalls::judge_wiring},
       {"robot/roll", &RobotCalls::roll}};
@@ -194,7 +195,7 @@ json RobotCalls::close(Page page, const json&) {
   driving_.require_free_for(page);
   if (live::RobotSession* found = robot_->session()) driving_.finish(*found);
   closing_ = true;
-  if (recording_) record(page, {{"on", false}});
+  if (recordings_.under_way()) record(page, {{"on", false}});
   finish_close();
   return json::object();
 }
@@ -239,7 +240,7 @@ void RobotCalls::ask_for_telemetry() {
     wanted.period_ms = std::min(wanted.period_ms, each.period_ms());
     wanted.fields |= each.fields();
   }
-  if (recording_) wanted.fields = Telemetry::kAll;
+  if (recordings_.under_way()) wanted.fields = Telemetry::kAll;
   stream_ms_ = wanted.period_ms;
   if (robot_) robot_->link().ask_for_telemetry(wanted);
 }
@@ -271,31 +272,45 @@ json RobotCalls::commit(Page page, const json& question) {
 }
 json RobotCalls::discard(Page page, const json&) { return parameters_[page].discard(); }
 
+void RobotCalls::require_no_recording() const {
+  if (recordings_.under_way())
+    throw Error("a recording is under way: end it first", {}, {recordings_.file()});
+}
+
 json RobotCalls::record(Page, const json& question) {
-  const bool on = flag_in(question, "on");
-  if (on && recording_) throw Error("a recording is under way: end it first", {}, {recording_->file()});
-  if (on) {
+  if (flag_in(question, "on")) {
+    require_no_recording();
     require_no_close();
     live::RobotSession& found = known_session();
     recording::RunInfo info = experiment::info_of(found.client().robot(), found.numbers());
     robot_->take_truth();  // that of before is not recorded
     if (robot_->is_simulated()) info.truth_source = "sim", info.truth_clock = "robot";
-    recording_.emplace(folder_, info);
+    recordings_.begin(info);
     ask_for_telemetry();
-    return {{"file", recording_->file()}};
+    return {{"file", recordings_.file()}};
   }
-  if (!recording_) throw Error("no recording is under way");
-  WatchedRecording& ending = *recording_;
-  const std::string file = ending.file();
-  try {
-    ending.close();
-  } catch (...) {
-    recording_.reset();
-    throw;
-  }
-  recording_.reset();
+  if (!recordings_.under_way()) throw Error("no recording is under way");
+  const std::string file = recordings_.end();
   ask_for_telemetry();
   return {{"file", file}};
+}
+
+json RobotCalls::recording_saved(Page, const json& question) {
+  recordings_.saved(text_in(question, "file"));
+  return json::object();
+}
+
+/// The robot drives on, whatever becomes of its recording.
+void RobotCalls::end_full_recording() {
+  std::string sentence =
+      "the recording has taken all the room that there is for recordings, and has ended: save it";
+  try {
+    recordings_.end();
+  } catch (const Error& error) {
+    sentence = error.what();
+  }
+  ask_for_telemetry();
+  tell_(kAllPages, {{"event", "notice"}, {"sentence", sentence}});
 }
 
 json RobotCalls::export_parameters(Page, const json&) {
@@ -329,7 +344,7 @@ json RobotCalls::roll(Page, const json& question) {
 json RobotCalls::measure(Page page, Measure what, const json& question) {
   require_no_close();
   driving_.require_free_for(page);
-  if (recording_) throw Error("a recording is under way: end it first", {}, {recording_->file()});
+  require_no_recording();
   live::RobotSession& found = known_session();
   robot::DriveHooks drive;
   drive.interrupted = [this] { return measurement_has_to_end(); };
@@ -434,6 +449,7 @@ void RobotCalls::work(microseconds most) {
   pump(*found, most);
   found->keep_telemetry();
   look_for_other_driver(*found);
+  if (recordings_.full()) end_full_recording();
 }
 
 void RobotCalls::pump(live::RobotSession& session, microseconds most) {
@@ -449,7 +465,7 @@ void RobotCalls::take_samples(live::RobotSession& session) {
 
 void RobotCalls::take(const Telemetry& telemetry) {
   newest_ = telemetry;
-  if (recording_) recording_->add(telemetry, robot_->take_truth());
+  if (recordings_.under_way()) recordings_.add(telemetry, robot_->take_truth());
   for (auto& [page, each] : watches_) each.take(telemetry, stream_ms_);
 }
 
@@ -480,7 +496,8 @@ RobotState RobotCalls::state() const {
   if (robot_ && robot_->link().losses() > 0 && newest_ == std::nullopt)
     state.why_lost = robot_->link().why().what();
   state.other_driver = other_driver_;
-  if (recording_) state.recording = recording_->file();
+  state.recording = recordings_.file();
+  state.unsaved = recordings_.unsaved();
   return state;
 }
 

@@ -13,9 +13,9 @@
 #include "host/page/robot/measurements.hpp"
 #include "host/page/robot/opened_robot.hpp"
 #include "host/page/robot/parameter_calls.hpp"
+#include "host/page/robot/recordings.hpp"
 #include "host/page/robot/signal_watch.hpp"
 #include "host/page/robot/state_event.hpp"
-#include "host/page/robot/watched_recording.hpp"
 
 namespace astro::page {
 
@@ -33,9 +33,9 @@ class RobotCalls {
   /// Called at least every 50 ms while a measurement drives the robot; true ends it, with the robot at rest and disarmed.
   using Meanwhile = std::function<bool()>;
 
-  /// `folder`: where recordings are written.
+  /// `recordings`: its folder is that of other files, too, which calls write.
   RobotCalls(
-      RobotPorts ports, std::filesystem::path folder, Tell tell, Meanwhile meanwhile = [] { return false; });
+      RobotPorts ports, RecordingPlace recordings, Tell tell, Meanwhile meanwhile = [] { return false; });
   /// A robot that a page drives is brought to rest and disarmed, which may take seconds.
   ~RobotCalls();
   RobotCalls(const RobotCalls&) = delete;
@@ -89,6 +89,7 @@ class RobotCalls {
   Answer commit(Page page, const nlohmann::json& question);
   Answer discard(Page page, const nlohmann::json& question);
   Answer record(Page page, const nlohmann::json& question);
+  Answer recording_saved(Page page, const nlohmann::json& question);
   Answer export_parameters(Page page, const nlohmann::json& question);
   Answer judge_wiring(Page page, const nlohmann::json& question);
   Answer roll(Page page, const nlohmann::json& question);
@@ -104,6 +105,8 @@ class RobotCalls {
   live::RobotSession& known_session();
   live::RobotSession& current_session();
   void require_no_close() const;
+  void require_no_recording() const;
+  void end_full_recording();
   void finish_close();
   void forget_robot();
   Answer description(Page page);
@@ -132,7 +135,7 @@ class RobotCalls {
   bool closing_ = false;         // the robot is brought to rest first
   std::uint16_t stream_ms_ = 0;  // the period of the telemetry that was asked for
   std::optional<protocol::Telemetry> newest_;
-  std::optional<WatchedRecording> recording_;
+  Recordings recordings_;
   microseconds waited_{};  // of the question that is being answered
   std::string other_driver_;
   microseconds look_at_{};  // for another program that drives

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/protocol/telemetry.hpp"
 #include "host/base/microseconds.hpp"
@@ -18,6 +19,7 @@ struct RobotState {
   std::string why_lost;                          // "" while the link is up
   std::string other_driver;                      // another program; "" if none is known
   std::string recording;                         // its file, or ""
+  std::vector<std::string> unsaved;              // recordings that have ended, and that no page has saved
 };
 
 nlohmann::json to_json(const RobotState& state);

@@ -42,7 +42,8 @@ function(astro_web_library target folder)
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   target_include_directories(${name} SYSTEM PUBLIC ${arg_INCLUDES})
   target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
-  target_compile_options(${name} PRIVATE -w -Oz)  # they come over a network, and none of them is what takes the time
+  # They come over a network. Emscripten's -Oz would inline nothing.
+  target_compile_options(${name} PRIVATE -w -Oz -finline-functions)
   add_library(${target} ALIAS ${name})
 endfunction()
 astro_web_library(BZip2::BZip2 bzip2-src INCLUDES .

@@ -42,7 +42,7 @@ class RobotOfThePage {
   }
 
   const astro::page::Emit* emit_ = nullptr;  // of the call under way
-  astro::page::RobotCalls calls_{{}, kFolder, [this](astro::page::Page, const json& event) {
+  astro::page::RobotCalls calls_{{}, {.folder = kFolder}, [this](astro::page::Page, const json& event) {
                                    if (emit_ != nullptr) (*emit_)(event);
                                  }};
   astro::page::RealTime pace_;

@@ -270,7 +270,11 @@
     try {
       const data = JSON.parse(document.getElementById('report-data').textContent);
       for (const group of data.groups) group.choice = '0';
-      for (const figure of figures()) await draw(data, figure);
+      for (const figure of figures()) {
+        // Seconds pass until all are drawn; the text is shown, and scrolls, meanwhile.
+        await new Promise((shown) => setTimeout(shown));
+        await draw(data, figure);
+      }
       listen(data);
     } catch (error) {
       complain(null, error);

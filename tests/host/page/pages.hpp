@@ -46,7 +46,7 @@ class Pages : public testing::Test {
   RobotCalls& calls() {
     if (!calls_)
       calls_.emplace(
-          ports_, folder_.path(),
+          ports_, recordings_,
           [this](Page page, const json& event) {
             events_.push_back({page, event});
           },
@@ -81,6 +81,7 @@ class Pages : public testing::Test {
   RobotPorts ports_;
   RobotCalls::Meanwhile meanwhile_ = [] { return false; };
   test::TemporaryFolder folder_;
+  RecordingPlace recordings_{.folder = folder_.path()};
   std::vector<std::pair<Page, json>> events_;
   std::optional<RobotCalls> calls_;
 };

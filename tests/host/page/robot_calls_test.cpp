@@ -349,6 +349,68 @@ TEST_F(SimulatedRobot, RecordsAFileThatACalibrationReads) {
   EXPECT_NE(sentence(ask("record", {{"on", false}})), "");
 }
 
+TEST_F(SimulatedRobot, ARecordingIsOfferedUntilAPageHasSavedIt) {
+  const std::string file = result("record", {{"on", true}})["file"];
+  calls().leave(kFirst);
+  EXPECT_EQ(state_after_ms(1000)["recording"], file) << "it goes on when a page is closed";
+  EXPECT_TRUE(state()["unsaved"].empty());
+  result("close", json::object(), kSecond);
+  EXPECT_FALSE(state()["open"].get<bool>());
+  EXPECT_EQ(state()["recording"], nullptr);
+  EXPECT_EQ(state()["unsaved"], json({file})) << "the end of the robot ends it, and nobody has it yet";
+  EXPECT_FALSE(recording::read_run(folder_.path() / file).odometry.empty());
+  result("recording_saved", {{"file", "another.mcap"}});
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / file));
+  result("recording_saved", {{"file", file}});
+  calls().step({});
+  EXPECT_TRUE(state()["unsaved"].empty());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / file)) << "it takes no memory any more";
+}
+
+class KeptRecordings : public Pages {
+ protected:
+  KeptRecordings() {
+    recordings_.keep = [this](const std::filesystem::path& file) {
+      kept_.push_back(recording::read_run(file).odometry.size());
+    };
+  }
+  std::vector<std::size_t> kept_;  // samples of each recording
+};
+
+TEST_F(KeptRecordings, WhateverNoPageHasSavedIsKeptAtTheEnd) {
+  result("open", {{"simulated", json::object()}});
+  for (const bool saves : {false, true}) {
+    result("record", {{"on", true}});
+    run_ms(1000);
+    const json ended = result("record", {{"on", false}});
+    if (saves) result("recording_saved", ended);
+  }
+  result("record", {{"on", true}});
+  run_ms(2000);
+  calls_.reset();
+  // A sample each 20 ms, but for those on the way.
+  ASSERT_EQ(kept_.size(), 2U) << "the first, and the one that was under way";
+  EXPECT_NEAR(static_cast<double>(kept_[0]), 50, 10);
+  EXPECT_NEAR(static_cast<double>(kept_[1]), 100, 10);
+}
+
+TEST_F(Pages, ARecordingEndsWhenThereIsNoMoreRoomAndCanBeSaved) {
+  recordings_.most_bytes = 100'000;
+  result("open", {{"simulated", json::object()}});
+  const std::string file = result("record", {{"on", true}})["file"];
+  for (int s = 0; s < 120 && state_after_ms(1000)["recording"] == file;) ++s;
+  EXPECT_EQ(state()["unsaved"], json({file}));
+  EXPECT_THAT(events("notice").back()["sentence"].get<std::string>(), HasSubstr("all the room"));
+  // A chunk of some seconds is written at a time, and the file's index at its end.
+  const auto bytes = std::filesystem::file_size(folder_.path() / file);
+  EXPECT_GE(bytes, recordings_.most_bytes);
+  EXPECT_LT(bytes, 2 * recordings_.most_bytes);
+  EXPECT_GT(recording::read_run(folder_.path() / file).odometry.size(), 100U);
+  EXPECT_THAT(sentence(ask("record", {{"on", true}})), HasSubstr("save them first"));
+  result("recording_saved", {{"file", file}});
+  result("record", {{"on", true}});
+}
+
 TEST_F(SimulatedRobot, ClosingLeavesItDisarmedAndAnotherOneMayBeOpened) {
   EXPECT_THAT(sentence(ask("open", {{"simulated", json::object()}})), HasSubstr("close it first"));
   result("arm");

@@ -19,6 +19,9 @@ interface Answer {
 
 type State = "ready" | "driving" | "done" | "refused";
 
+/** A robot drives a square in a seventh of a second or so: more pictures take time from it and show nothing more. */
+const kBetweenPictures_ms = 40;
+
 /** A simulated robot drives squares as one watches, is calibrated, and drives them again. */
 export function TryPage({ backend }: { backend: Backend }) {
   const [chosen, choose] = useState(kUsual);
@@ -34,10 +37,10 @@ export function TryPage({ backend }: { backend: Backend }) {
   const redraw = () => {
     if (pending.current) return;
     pending.current = true;
-    requestAnimationFrame(() => {
+    setTimeout(() => {
       pending.current = false;
       drawn((n) => n + 1);
-    });
+    }, kBetweenPictures_ms);
   };
 
   const told = (event: Event_) => {

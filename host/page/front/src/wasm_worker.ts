@@ -1,14 +1,19 @@
 import { sentence_of } from "./backend";
+import { KeptRecording, type ModuleFiles } from "./live/kept_recordings";
 import type { FromWorker, ToWorker } from "./wasm_messages";
 
 /** The module's surface (host/page/wasm/main.cpp). */
 interface Module {
   answer(call: string, question: string, emit: (event: string) => void): string;
-  FS: { mkdir(path: string): void; readFile(path: string): Uint8Array<ArrayBuffer>; writeFile(path: string, bytes: Uint8Array): void };
+  FS: ModuleFiles & { mkdir(path: string): void; readFile(path: string): Uint8Array<ArrayBuffer>; writeFile(path: string, bytes: Uint8Array): void };
 }
 
 const kFolder = "/files-of-the-page";
 const kStep_ms = 20;
+/** A page that is closed loses what was driven since the last copy. */
+const kCopy_ms = 1000;
+/** Files are in memory, once here and once more while they are read; a browser gives a page a few gigabytes. */
+const kMostBytes = 1e9;
 
 async function load(): Promise<Module> {
   const address = new URL(/* @vite-ignore */ "../astrolabe.mjs", import.meta.url).href;
@@ -40,13 +45,44 @@ function ask(module: Module, question_id: number, call: string, question: unknow
   return JSON.parse(module.answer(call, JSON.stringify(question), (event) => post({ id, kind: "event", event: JSON.parse(event) }))) as Answered;
 }
 
+let kept: KeptRecording[] = [];
+
+/** What is recorded is kept until somebody has it. */
+async function keep_recordings(module: Module, call: string, question: unknown, result: unknown) {
+  if (call === "robot/record" && (question as { on?: boolean }).on) {
+    const recording = await KeptRecording.of(module.FS, `${kFolder}/${(result as { file: string }).file}`);
+    if (recording) kept.push(recording);
+  } else if (call === "robot/recording_saved") {
+    const { file } = question as { file: string };
+    const saved = kept.filter((each) => each.name === file);
+    kept = kept.filter((each) => each.name !== file);
+    for (const each of saved) await each.drop();
+  }
+  for (const each of kept) each.copy();
+}
+
+/** Bytes of the files that somebody gave, by their names. */
+const given = new Map<string, number>();
+
+function require_room(file: File) {
+  let others = 0;
+  for (const [name, bytes] of given) if (name !== file.name) others += bytes;
+  if (others + file.size <= kMostBytes) return;
+  const size = `${(file.size / 1e9).toFixed(2)} GB`;
+  throw new Error(`'${file.name}' (${size}) does not fit into this page's memory, which has room for ${kMostBytes / 1e9} GB of files: load the page anew if it holds others, take a shorter part, or use the installed program`);
+}
+
 let clock = 0;
+let copying = 0;
 
 /** A simulated robot's time passes only when somebody asks for it. */
 function let_time_pass(module: Module) {
   clock ||= setInterval(() => {
     ask(module, 0, "robot/step", { now_s: performance.now() / 1000 });
   }, kStep_ms) as unknown as number;
+  copying ||= setInterval(() => {
+    for (const each of kept) each.copy();
+  }, kCopy_ms) as unknown as number;
 }
 
 onmessage = async ({ data }: MessageEvent<ToWorker>) => {
@@ -58,7 +94,9 @@ onmessage = async ({ data }: MessageEvent<ToWorker>) => {
       return;
     }
     if (data.kind === "put") {
+      require_room(data.file);
       module.FS.writeFile(`${kFolder}/${data.file.name}`, await bytes_of(data.file));
+      given.set(data.file.name, data.file.size);
       post({ id, kind: "answer", answer: null });
       return;
     }
@@ -66,6 +104,7 @@ onmessage = async ({ data }: MessageEvent<ToWorker>) => {
     if (error) post({ id, kind: "refusal", ...error });
     else post({ id, kind: "answer", answer: result });
     if (data.call === "robot/open") let_time_pass(module);
+    if (!error) await keep_recordings(module, data.call, data.question, result);
   } catch (error) {
     post({ id, kind: "refusal", sentence: sentence_of(error), remedies: [] });
   }

@@ -8,32 +8,49 @@ export interface Way {
   truth: number[];
 }
 
-function draw(canvas: HTMLCanvasElement, ways: Way[]) {
-  const plan = new Plan(canvas, box_of(ways.flatMap((way) => [way.odometry, way.truth]), 0.5));
-  const style = getComputedStyle(canvas);
-  const truth = style.getPropertyValue("--truth"),
-    odometry = style.getPropertyValue("--odometry");
-  ways.forEach((way, i) => {
-    const newest = i === ways.length - 1;
-    plan.line(way.truth, truth, 2, newest ? 1 : 0.18);
-    plan.line(way.odometry, odometry, 2, newest ? 1 : 0.3);
-  });
-  const last = ways.at(-1);
-  for (const [points, colour] of [[last?.truth, truth], [last?.odometry, odometry]] as const)
-    if (points && points.length >= 2) plan.dot(points.at(-2)!, points.at(-1)!, colour);
+/** The drives before the newest change with none of its points: they are drawn once, and copied from then on. */
+class Picture {
+  private readonly earlier = document.createElement("canvas");
+  private drawn = "";
+
+  draw(canvas: HTMLCanvasElement, ways: Way[]) {
+    const box = box_of(ways.flatMap((way) => [way.odometry, way.truth]), 0.5);
+    const plan = new Plan(canvas, box);
+    if (canvas.width === 0 || canvas.height === 0) return; // of a page that is not shown
+    const style = getComputedStyle(canvas);
+    const truth = style.getPropertyValue("--truth"),
+      odometry = style.getPropertyValue("--odometry");
+    const newest = ways.at(-1);
+    const drawn = [canvas.width, canvas.height, truth, odometry, ways.length, ...Object.values(box)].join();
+    if (drawn === this.drawn) plan.context.drawImage(this.earlier, 0, 0);
+    else {
+      for (const way of ways.slice(0, -1)) {
+        plan.line(way.truth, truth, 2, 0.18);
+        plan.line(way.odometry, odometry, 2, 0.3);
+      }
+      [this.earlier.width, this.earlier.height] = [canvas.width, canvas.height];
+      this.earlier.getContext("2d")!.drawImage(canvas, 0, 0);
+      this.drawn = drawn;
+    }
+    for (const [points, colour] of [[newest?.truth, truth], [newest?.odometry, odometry]] as const) {
+      if (!points || points.length < 2) continue;
+      plan.line(points, colour, 2);
+      plan.dot(points.at(-2)!, points.at(-1)!, colour);
+    }
+  }
 }
 
 /** The drives of one phase over each other, the newest in full colour. */
-export function Ways(props: { ways: Way[]; label: string }) {
+export function Ways({ ways, label }: { ways: Way[]; label: string }) {
   const canvas = useRef<HTMLCanvasElement>(null);
+  const picture = useRef<Picture>();
+  const draw = useRef(() => {});
+  draw.current = () => (picture.current ??= new Picture()).draw(canvas.current!, ways);
+  useEffect(() => draw.current(), [ways.length, ways.at(-1)?.truth.length]);
   useEffect(() => {
-    const element = canvas.current;
-    if (!element) return;
-    const again = () => draw(element, props.ways);
-    again();
-    const observer = new ResizeObserver(again);
-    observer.observe(element);
+    const observer = new ResizeObserver(() => draw.current());
+    observer.observe(canvas.current!);
     return () => observer.disconnect();
-  });
-  return <canvas ref={canvas} class="ways" role="img" aria-label={props.label} />;
+  }, []);
+  return <canvas ref={canvas} class="ways" role="img" aria-label={label} />;
 }

@@ -2,10 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "host/recording/run_file.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/pages/page.hpp"
 
@@ -35,6 +40,11 @@ class Served : public testing::Test {
     Settings settings;
     settings.page = folder_.path();
     settings.page_timeout = std::chrono::hours(1);  // these pages answer pings only while they read
+    settings.recordings = kept_;
+    settings.notice = [this](const Remark& remark) {
+      const std::lock_guard lock(noticing_);
+      notices_.push_back(remark.sentence);
+    };
     dashboard_.emplace(settings);
   }
 
@@ -60,6 +70,9 @@ class Served : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
+  const std::filesystem::path kept_ = folder_.path() / "kept";
+  std::mutex noticing_;
+  std::vector<std::string> notices_;
   std::optional<Dashboard> dashboard_;
 };
 
@@ -76,6 +89,17 @@ TEST_F(Served, ThePageComesIsolatedAndUnframed) {
   EXPECT_THAT(answer, Not(HasSubstr(token())));
   EXPECT_THAT(said("GET /nothing"), StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(said("GET /nothing"), HasSubstr("X-Frame-Options: DENY"));
+}
+
+TEST_F(Served, ARecordingUnderWayIsKeptWhenTheProgramEnds) {
+  OpenPage own = page();
+  own.result("robot/open", {{"simulated", {{"seed", 1}}}});
+  const std::string file = own.result("robot/record", {{"on", true}})["file"];
+  EXPECT_TRUE(own.hears([&](const json& event) { return is_state(event) && event["recording"] == file; }));
+  dashboard_.reset();
+  EXPECT_EQ(recording::read_run(kept_ / file).info.kind, "free");
+  ASSERT_EQ(notices_.size(), 1U);
+  EXPECT_THAT(notices_.front(), HasSubstr((kept_ / file).string()));
 }
 
 TEST_F(Served, ANameThatWasMadeToLeadHereIsRefused) {

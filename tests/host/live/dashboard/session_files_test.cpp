@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/base/error.hpp"
 #include "host/live/dashboard/static_files.hpp"
 #include "tests/support/base/temporary_folder.hpp"
 
@@ -56,6 +57,29 @@ TEST(SessionFiles, CountWhatTheyTake) {
   write(files.folder() / "a", std::string(1000, 'x'));
   write(files.folder() / "b/c", std::string(500, 'x'));
   EXPECT_EQ(before - files.room(), 1500U);
+}
+
+TEST(SessionFiles, AreKeptUnderANameThatReplacesNothing) {
+  const test::TemporaryFolder to;
+  SessionFiles files;
+  write(files.folder() / "a.mcap", "drive");
+  for (const char* name : {"a.mcap", "a-2.mcap", "a-3.mcap"}) {
+    const fs::path kept = files.keep(files.folder() / "a.mcap", to.path() / "drives");
+    EXPECT_EQ(kept.filename(), name);
+    EXPECT_EQ(fs::file_size(kept), 5U);
+  }
+}
+
+TEST(SessionFiles, StayWhereTheyAreIfTheyCannotBeKept) {
+  fs::path folder;
+  {
+    SessionFiles files;
+    folder = files.folder();
+    write(folder / "a.mcap", "drive");
+    EXPECT_THROW(files.keep(folder / "a.mcap", folder / "a.mcap/below"), Error);
+  }
+  EXPECT_EQ(fs::file_size(folder / "a.mcap"), 5U);
+  fs::remove_all(folder);
 }
 
 TEST(PercentDecoded, IsThatOfALinkOrNothing) {

@@ -1,6 +1,11 @@
 // The page Live as a program serves it.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readdirSync, rmSync } from "node:fs";
+import os from "node:os";
+import path from "node:path";
 import { test } from "node:test";
+import { astrolabe } from "../module/places.mjs";
 import { in_window } from "./browser.mjs";
 import { arm, at_rest, beyond, button, in_mode, pad, simulate, strip } from "./live.mjs";
 import { expect_smooth, watch_for_a_minute } from "./live_load.mjs";
@@ -78,6 +83,30 @@ test("a program that ends is said to have ended", async () => {
       await strip(page).getByText(/open the link that it prints/).waitFor();
     });
   });
+});
+
+test("what is recorded goes on while the page is reloaded, and is kept when Ctrl-C ends the program", async () => {
+  const may_complain = (text) => /WebSocket connection to .* failed/.test(text);
+  const kept = mkdtempSync(path.join(os.tmpdir(), "page-kept-"));
+  try {
+    await with_dashboard(["--recordings", kept], async (link, program) => {
+      await in_window(link, { may_complain }, async (page) => {
+        await simulate(page);
+        await button(page, "Record").click();
+        await strip(page).getByText("recording").waitFor();
+        await page.reload();
+        await strip(page).getByText("recording").waitFor();
+        await ended(program, "SIGINT");
+        await in_mode(page, "lost");
+      });
+    });
+    const [recording, ...others] = readdirSync(kept);
+    assert.match(recording, /\.mcap$/);
+    assert.deepEqual(others, []);
+    execFileSync(astrolabe, ["export", path.join(kept, recording), "--csv", path.join(kept, "csv")]);
+  } finally {
+    rmSync(kept, { recursive: true });
+  }
 });
 
 test("the link's token leaves the address, and without it nothing is answered", async () => {

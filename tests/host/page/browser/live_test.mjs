@@ -1,7 +1,11 @@
 // The page Live on a robot that the module simulates, as somebody uses it who has only the page.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import os from "node:os";
+import path from "node:path";
 import { test } from "node:test";
+import { astrolabe } from "../module/places.mjs";
 import { in_browser } from "./browser.mjs";
 import { expect_smooth, watch_for_a_minute } from "./live_load.mjs";
 import { arm, at_rest, beyond, button, forward_m, in_mode, no_complaint, pad, panel, simulate, strip } from "./live.mjs";
@@ -217,6 +221,57 @@ test("what was recorded is saved as MCAP", async () => {
     const magic = Buffer.from("\x89MCAP0\r\n", "latin1");
     assert.ok(bytes.subarray(0, 8).equals(magic) && bytes.subarray(-8).equals(magic), "the file is complete");
     assert.ok(bytes.includes("left_setpoint"), "it describes what was watched");
+  });
+});
+
+test("what was recorded is not lost with the page", async () => {
+  await on_armed_robot(async (page) => {
+    const folder = mkdtempSync(path.join(os.tmpdir(), "page-recording-"));
+    try {
+      await button(page, "Record").click();
+      await strip(page).getByText("recording").waitFor();
+      await hold_arrow(page);
+      const recordings = panel(page, "Recordings");
+      const [other] = await Promise.all([page.waitForEvent("popup"), page.evaluate(() => void open(location.href))]);
+      await button(other, "Simulate a robot").waitFor();
+      assert.equal(await panel(other, "Recordings").count(), 0, "no other page offers what is being recorded");
+      await other.close();
+      // The module writes what it has once in some seconds, and the page copies it once a second.
+      await page.waitForFunction(async () => {
+        const folder = await (await navigator.storage.getDirectory()).getDirectoryHandle("recordings");
+        for await (const file of folder.values()) if ((await file.getFile()).size > 20_000) return true;
+        return false;
+      }, null, { timeout: 60_000 });
+      await page.reload();
+      await recordings.waitFor();
+      const [download] = await Promise.all([page.waitForEvent("download"), recordings.getByRole("button", { name: /^Save/ }).click()]);
+      const saved = path.join(folder, download.suggestedFilename());
+      await download.saveAs(saved);
+      execFileSync(astrolabe, ["export", saved, "--damaged", "--csv", path.join(folder, "csv")]);
+      const odometry = readFileSync(path.join(folder, "csv", "odometry.csv"), "utf8").trim().split("\n");
+      assert.ok(odometry.length > 50, `${odometry.length} lines`);
+      await recordings.waitFor({ state: "detached" });
+      await page.reload();
+      await button(page, "Simulate a robot").waitFor();
+      assert.equal(await recordings.count(), 0, "what is saved is not offered again");
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
+  });
+});
+
+test("a recording that ends with its robot is offered, saved or discarded", async () => {
+  await on_armed_robot(async (page) => {
+    const recordings = panel(page, "Recordings");
+    for (const what of [/^Save/, /^Discard/]) {
+      await button(page, "Record").click();
+      await strip(page).getByText("recording").waitFor();
+      await button(page, "Leave this robot").click();
+      await recordings.waitFor();
+      await recordings.getByRole("button", { name: what }).click();
+      await recordings.waitFor({ state: "detached" });
+      await simulate(page);
+    }
   });
 });
 

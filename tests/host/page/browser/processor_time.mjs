@@ -19,11 +19,12 @@ const numbers_in = (folder) => {
 /** What the kernel says behind the name: state, parent, ... */
 const stat = (file) => text_of(file).replace(/^.*\) /s, "").split(" ");
 
-/** The processes in which pages of this test's browser run. */
+/** The processes in which pages of this test's browser run. Its own buttons are pages, too, but not what is tested. */
 function renderers() {
   const parents = new Map(numbers_in("/proc").map((id) => [id, Number(stat(`/proc/${id}/stat`)[1])]));
   const is_ours = (id) => id === process.pid || (parents.has(id) && is_ours(parents.get(id)));
-  return [...parents.keys()].filter((id) => is_ours(id) && text_of(`/proc/${id}/cmdline`).includes("--type=renderer"));
+  const is_page = (words) => words.includes("--type=renderer") && !words.includes("--top-chrome-webui");
+  return [...parents.keys()].filter((id) => is_ours(id) && is_page(text_of(`/proc/${id}/cmdline`)));
 }
 
 function seconds_in(file) {
@@ -43,6 +44,12 @@ export function processor_time_s() {
       if (thread === id || text_of(`${place}/comm`).startsWith("DedicatedWorker")) all_s += seconds_in(`${place}/stat`);
     }
   return all_s;
+}
+
+/** Processor time of all programs that this one has started and that have ended, s. */
+export function ended_programs_time_s() {
+  const [user, system] = stat("/proc/self/stat").slice(13, 15);
+  return (Number(user) + Number(system)) / kTicksPerSecond;
 }
 
 /** Processor time of a program and all its threads, s. */

@@ -1,12 +1,13 @@
 // The page Your data, as somebody uses it who has files and only the page; what it finds is what the command line finds.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, truncateSync, writeFileSync } from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { astrolabe, native_answers, shared_data } from "../module/places.mjs";
 import { in_browser } from "./browser.mjs";
+import { drive_files } from "./drive_files.mjs";
 
 const folder = mkdtempSync(path.join(os.tmpdir(), "page-data-"));
 after(() => rmSync(folder, { recursive: true }));
@@ -214,6 +215,18 @@ test("files of the same name from two folders are two files", async () => {
     assert.match(await page.locator("main").innerText(), /There is another wheels\.csv already, so the new one is called wheels \(2\)\.csv/);
     await enter_sizes(page, sizes);
     expect_like_command_line(await calibrated(page), ["files", ...files_of(simulated.slice(0, 2)), "--wheel-diameter", "0.072", "--counts-per-turn", "2803.2", "--wheelbase", "0.29"]);
+  });
+});
+
+test("a file that does not fit into the page's memory is refused in a sentence, and others are read", async () => {
+  const large = path.join(folder, "large.csv");
+  writeFileSync(large, "");
+  truncateSync(large, 1.2e9); // takes no room on the disk
+  await in_browser("#data", {}, async (page) => {
+    await page.getByLabel("Drop files").setInputFiles(large);
+    await page.getByRole("alert").getByText("'large.csv' (1.20 GB) does not fit into this page's memory").waitFor({ timeout: 60_000 });
+    await page.getByLabel("Drop files").setInputFiles(drive_files());
+    await page.getByRole("heading", { name: "Drives" }).waitFor({ timeout: 60_000 });
   });
 });
 

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "tests/support/base/temporary_folder.hpp"
 #include "tests/support/pages/page.hpp"
 #include "tests/support/programs/program.hpp"
 
@@ -102,6 +103,19 @@ TEST(Dashboard, ThatIsEndedLeavesARobotAtRest) {
   dashboard.program().send(SIGINT);
   EXPECT_EQ(dashboard.program().wait(), 0) << dashboard.program().err();
   EXPECT_EQ(mode_of(robot.port()), "disarmed");
+}
+
+TEST(Dashboard, ThatIsEndedSaysWhereARecordingIs) {
+  const test::TemporaryFolder kept;
+  RunningDashboard dashboard({"--port", "/dev/no-robot", "--recordings", kept.path().string()});
+  OpenPage page = dashboard.page();
+  page.result("robot/open", {{"simulated", json::object()}});
+  const std::string file = page.result("robot/record", {{"on", true}})["file"];
+  dashboard.program().send(SIGINT);
+  EXPECT_EQ(dashboard.program().wait(), 0) << dashboard.program().err();
+  EXPECT_THAT(dashboard.program().err(), HasSubstr(file));
+  EXPECT_EQ(
+      astrolabe({"export", (kept.path() / file).string(), "--csv", (kept.path() / "csv").string()}).code, 0);
 }
 
 TEST(Dashboard, NamesARobotThatIsNotThereAndStaysForAnother) {

@@ -3,6 +3,7 @@ import { Driving } from "./driving";
 import { Faults } from "./faults";
 import { Parameters } from "./parameters";
 import { PathView } from "./path_view";
+import { Recordings } from "./recordings";
 import { kWheelSignals, type Robot } from "./robot";
 import { Scope } from "./scope";
 import { use_robot } from "./use_robot";
@@ -11,7 +12,13 @@ import { Wheels } from "./wheels";
 /** A robot as it drives, and whoever drives it. */
 export function LivePage({ robot }: { robot: Robot }) {
   const opened = use_robot(robot, (each) => each.opened);
-  if (!opened) return <Connect robot={robot} />;
+  if (!opened)
+    return (
+      <>
+        <Connect robot={robot} />
+        <Recordings robot={robot} />
+      </>
+    );
   return (
     <>
       <div class="head">
@@ -22,6 +29,7 @@ export function LivePage({ robot }: { robot: Robot }) {
         </button>
       </div>
       <Faults robot={robot} />
+      <Recordings robot={robot} />
       <div class="cockpit">
         <PathView robot={robot} />
         <div>

@@ -1,4 +1,5 @@
 import { type Backend, type Event_, Refusal, sentence_of } from "../backend";
+import { save } from "../saving";
 import type { Opened, Parameter, PathEvent, Poses, RobotState, Samples } from "./contract";
 import { Frames } from "./frames";
 import { HeldDrive } from "./held_drive";
@@ -18,6 +19,8 @@ export class Robot {
   opened: Opened | null = null;
   parameters: Parameter[] = [];
   state: RobotState | null = null;
+  /** Recordings that have ended and that nobody has saved, also of a robot that is closed. */
+  unsaved: string[] = [];
   /** Why nothing is heard of an open robot; "" if it is heard. */
   lost = "";
   /** The last command that could not be carried out, or a remark of a drive. */
@@ -137,6 +140,16 @@ export class Robot {
     this.changed();
   }
 
+  /** Hands a recording to the person; whoever wrote it need not keep it any longer. */
+  async save_recording(file: string) {
+    save(file, await this.backend.file(file));
+    await this.drop_recording(file);
+  }
+
+  async drop_recording(file: string) {
+    await this.backend.ask("robot/recording_saved", { file });
+  }
+
   async read_parameters() {
     this.parameters = (await this.backend.ask<{ parameters: Parameter[] }>("robot/parameters", {})).parameters;
     this.changed();
@@ -181,6 +194,7 @@ export class Robot {
       if (event.up) void this.come_back();
       return;
     }
+    if (event.event === "state") this.take_unsaved((event as RobotState).unsaved);
     if (!this.opened) {
       // Another page has opened it.
       if (event.event === "state" && event.open && !this.opening) void this.open_present();
@@ -192,6 +206,12 @@ export class Robot {
     else if (event.event === "path") this.take_path(event as PathEvent);
     else if (event.event === "notice") this.refuse(new Refusal(event.sentence as string));
     else if (event.event === "state") this.take_state(event as RobotState);
+  }
+
+  private take_unsaved(unsaved: string[]) {
+    if (unsaved.join("/") === this.unsaved.join("/")) return;
+    this.unsaved = unsaved;
+    this.changed();
   }
 
   private take_samples(samples: Samples) {

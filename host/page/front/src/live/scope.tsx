@@ -1,5 +1,4 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { save } from "../saving";
 import type { Signal } from "./contract";
 import type { Robot } from "./robot";
 import { type Mode, ScopeScreen } from "./scope_screen";
@@ -79,7 +78,7 @@ function Recording({ robot }: { robot: Robot }) {
   const end = async () => {
     try {
       const { file } = await robot.backend.ask<{ file: string }>("robot/record", { on: false });
-      save(file.split("/").at(-1)!, await robot.backend.file(file));
+      await robot.save_recording(file);
     } catch (error) {
       robot.refuse(error);
     }
