@@ -46,12 +46,6 @@ export function processor_time_s() {
   return all_s;
 }
 
-/** Processor time of all programs that this one has started and that have ended, s. */
-export function ended_programs_time_s() {
-  const [user, system] = stat("/proc/self/stat").slice(13, 15);
-  return (Number(user) + Number(system)) / kTicksPerSecond;
-}
-
 /** Processor time of a program and all its threads, s. */
 export const program_time_s = (id) => seconds_in(`/proc/${id}/stat`);
 
