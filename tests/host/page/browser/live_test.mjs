@@ -236,11 +236,12 @@ test("what was recorded is not lost with the page", async () => {
       await button(other, "Simulate a robot").waitFor();
       assert.equal(await panel(other, "Recordings").count(), 0, "no other page offers what is being recorded");
       await other.close();
-      // The module writes what it has once in some seconds, and the page copies it once a second.
+      // The page copies once a second what the module has written: definitions at first, then what was driven, once in some seconds.
       await page.waitForFunction(async () => {
         const folder = await (await navigator.storage.getDirectory()).getDirectoryHandle("recordings");
-        for await (const file of folder.values()) if ((await file.getFile()).size > 20_000) return true;
-        return false;
+        window.sizes ??= new Set();
+        for await (const file of folder.values()) window.sizes.add((await file.getFile()).size);
+        return window.sizes.size >= 4;
       }, null, { timeout: 60_000 });
       await page.reload();
       await recordings.waitFor();

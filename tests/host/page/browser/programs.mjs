@@ -11,11 +11,12 @@ import { astrolabe, page } from "../module/places.mjs";
 const runtime = mkdtempSync(path.join(os.tmpdir(), "page-runtime-"));
 process.on("exit", () => rmSync(runtime, { recursive: true }));
 
-async function started(...words) {
+/** Waits for the first line that the program `says` on "stdout" or "stderr". */
+async function started(says, ...words) {
   const program = spawn(astrolabe, words, { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_RUNTIME_DIR: runtime } });
   let said = "";
   program.stderr.on("data", (text) => (said += text));
-  const lines = createInterface({ input: program.stdout });
+  const lines = createInterface({ input: program[says] });
   const first = await Promise.race([once(lines, "line"), once(program, "exit").then(() => [""])]);
   if (program.exitCode !== null) throw new Error(`${words.join(" ")}: ${said}`);
   return { first: first[0], program };
@@ -33,7 +34,7 @@ export class PortOfRobot {
     this.path = path.join(folder, "robot");
   }
   async start() {
-    this.program = (await started("sim", "--pty", this.path)).program;
+    this.program = (await started("stderr", "sim", "--pty", this.path)).program;
   }
   /** As if its cable were pulled. */
   lose() {
@@ -56,7 +57,7 @@ export async function with_robot(use) {
 
 /** `use` on the program that serves the page, and on the link that it prints. */
 export async function with_dashboard(words, use) {
-  const { first, program } = await started("dashboard", "--listen", "0", "--no-browser", "--page", page, ...words);
+  const { first, program } = await started("stdout", "dashboard", "--listen", "0", "--no-browser", "--page", page, ...words);
   try {
     await use(first, program);
   } finally {
