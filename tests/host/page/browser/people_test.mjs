@@ -101,6 +101,10 @@ const pages = {
   ],
 };
 
+/** Colours change over some tenths of a second, and those on the way are nobody's choice. */
+const transitions_ended = (page) =>
+  page.evaluate(() => Promise.allSettled(document.getAnimations().filter((each) => each instanceof CSSTransition).map((each) => each.finished)).then(() => {}));
+
 for (const [name, [hash, prepare]] of Object.entries(pages))
   test(`${name}: light and dark, wide and 390 px, nothing is found by axe-core and nothing is wider than the window`, async () => {
     await in_browser(hash, {}, async (page) => {
@@ -109,6 +113,7 @@ for (const [name, [hash, prepare]] of Object.entries(pages))
         for (const width of [1280, 390]) {
           await page.emulateMedia({ colorScheme });
           await page.setViewportSize({ width, height: 900 });
+          await transitions_ended(page);
           assert.deepEqual(await findings(page), [], `${colorScheme}, ${width} px`);
           const wide = await page.evaluate(() => document.documentElement.scrollWidth);
           assert.ok(wide <= width, `${wide} px wide in a window of ${width} px`);
