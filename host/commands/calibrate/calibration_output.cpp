@@ -55,7 +55,7 @@ void put_out(const experiment::Calibration& found, const CalibrationOutput& outp
     print_json(json);
   } else {
     write(calibration_text(found));
-    if (gyro) write('\n' + gyro_text(*gyro));
+    if (gyro) write('\n' + gyro_text(*gyro) + slips_text(gyro->against_wheels, gyro->names));
   }
   if (experiment::advises_against(found.judgement.verdict)) console::answer_no();
 }

@@ -169,7 +169,7 @@ void conclude(const experiment::Results& results, const std::filesystem::path& r
     if (not_loaded != nullptr)
       write(wrapped(experiment::judgement_sentence(*not_loaded) +
                     " It was not loaded; --force loads it all the same."));
-    if (gyro) write(gyro_text(*gyro));
+    if (gyro) write(gyro_text(*gyro) + slips_text(gyro->against_wheels, gyro->names));
     print("Report: " + report.string());
   }
   if (not_loaded != nullptr) console::answer_no();

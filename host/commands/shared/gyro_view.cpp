@@ -34,8 +34,7 @@ std::optional<experiment::GyroResult> gyro_of(const experiment::RunSet& set,
 }
 
 std::string gyro_text(const experiment::GyroResult& gyro) {
-  return wrapped(experiment::gyro_sentence(gyro) + advice(gyro)) +
-         slips_text(gyro.against_wheels, gyro.names);
+  return wrapped(experiment::gyro_sentence(gyro) + advice(gyro));
 }
 
 std::string slips_text(const calibration::GyroAgainstWheels& wheels, const std::vector<std::string>& names) {

@@ -14,10 +14,10 @@ namespace astro::commands {
 std::optional<experiment::GyroResult> gyro_of(const experiment::RunSet& set,
                                               const experiment::Calibration& found);
 
-/// Scale, lag and bias, how our own robot learns of a scale that is surely another one, and where it slipped.
+/// Scale, lag and bias, and how our own robot learns of a scale that is surely another one.
 std::string gyro_text(const experiment::GyroResult& gyro);
 
-/// Where the robot slipped by its gyro, a warning for each.
+/// Where the robot slipped by its gyro, a warning for each, which says that these seconds are left out.
 std::string slips_text(const calibration::GyroAgainstWheels& wheels, const std::vector<std::string>& names);
 
 }  // namespace astro::commands

@@ -85,9 +85,12 @@ TEST(WallDialogue, EndsWithTheGyroAndHowTheRobotLearnsItsScale) {
   result.gyro->scale = {1.0125, 0.0004, 1, 1};
   result.gyro->against_wheels.biases = {{"series 1", 0.01, 0.001}};
   result.gyro->loaded_scale = 0.99;
+  result.gyro->names = {"series 1"};
+  result.gyro->against_wheels.slips.emplace_back();
   const std::string text = wall_result_text(result);
   EXPECT_THAT(text, HasSubstr("1.01250 ± 0.00040"));
   EXPECT_THAT(text, HasSubstr("gyro_scale=1.00238")) << "what was loaded times what was found";
+  EXPECT_THAT(text, testing::Not(HasSubstr("left out"))) << "of whole turns no seconds are";
   EXPECT_LE(support::widest_line(text), 80U) << text;
   result.gyro->scale.scale = -1;
   EXPECT_THAT(wall_result_text(result), HasSubstr("gyro_axis"));

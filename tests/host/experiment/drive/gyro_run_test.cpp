@@ -62,7 +62,7 @@ TEST_F(GyroRun, HasThePoseWithTheGyroBesideThatOfTheWheels) {
   EXPECT_TRUE(notices.empty());
 }
 
-// Halves of a second of rest before and after the drive, in which a gyro of 0.025 degrees a second per root hertz is right to 0.0006 rad/s.
+// Three tenths of a second of rest at either end, in which a gyro of 0.025 degrees a second per root hertz is right to 0.0008 rad/s.
 TEST(GyroRunOfARobotThatDoesNotKnowItsBias, HasTheSameBiasFromItsStartToItsEnd) {
   sim::Config config = with_gyro();
   config.gyro->bias_radps = 0.02;
