@@ -31,9 +31,11 @@ if(ASTRO_PROCESSOR_${ASTROLABE_TARGET})
   # -flto-partition=one: what the tick costs must not depend on where the linker cuts the program in two.
   set(bare_metal -mcpu=${ASTRO_PROCESSOR_${ASTROLABE_TARGET}} -mthumb -mfloat-abi=soft -ffreestanding -fno-exceptions -fno-rtti
     -fno-threadsafe-statics -fno-use-cxa-atexit -fno-common -fno-schedule-insns -fno-jump-tables
-    -ffunction-sections -fdata-sections -flto=auto -flto-partition=one -fstack-usage)
+    -ffunction-sections -fdata-sections -flto=auto -flto-partition=one)
   target_compile_options(astro_compile INTERFACE ${bare_metal})
-  target_link_options(astro_compile INTERFACE ${bare_metal})
+  # What functions take of the stack is known where they are compiled in the end. ccache would keep no object for which a
+  # compiler that was told so has written nothing.
+  target_link_options(astro_compile INTERFACE ${bare_metal} -fstack-usage)
 endif()
 if(ASTROLABE_TARGET STREQUAL web)
   # Debian's Emscripten has libc++ 13, whose ranges are not finished. Its compiler and its library go with the headers of 16.
