@@ -4,8 +4,9 @@ import { bench, print } from './bench.mjs';
 import { NoAnswer } from './rig/host.mjs';
 
 const kParameter = 1, kOld = (1 << 30) + 1111, kNew = (1 << 30) + 2222; // c_R
-const kCuts = Number(process.env.ASTRO_POWER_CUTS ?? 60);
+const kCuts = Number(process.env.ASTRO_POWER_CUTS ?? 24);
 const kParametersAt = 0x1f0000, kSectors = 6;
+const kCommits = 70;
 const kSeed = 3;
 
 // A flash that holds the old set, such that the next commit begins with erasing a sector full of older records, or does
@@ -84,9 +85,9 @@ test('parameters wear their sectors evenly, and the program is never erased', ()
   const { pico, host } = bench({ seed: kSeed });
   pico.flash.times = { erase: 1e6, program: 0.05e6 };
   host.hello();
-  for (let commit = 0; commit < 200; ++commit) host.commit(kParameter, (1 << 30) + commit);
+  for (let commit = 0; commit < kCommits; ++commit) host.commit(kParameter, (1 << 30) + commit);
   const wear = [...pico.flash.erasures].slice(kParametersAt / 4096, kParametersAt / 4096 + kSectors - 2);
-  print(`erasures of the parameters' sectors after 200 commits: ${wear.join(' ')}`);
-  assert.ok(Math.max(...wear) - Math.min(...wear) <= 1);
+  print(`erasures of the parameters' sectors after ${kCommits} commits: ${wear.join(' ')}`);
+  assert.ok(Math.min(...wear) > 0 && Math.max(...wear) - Math.min(...wear) <= 1);
   assert.equal(pico.flash.erasures.subarray(0, kParametersAt / 4096).reduce((a, b) => a + b), 0);
 });
