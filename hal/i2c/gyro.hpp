@@ -24,15 +24,14 @@ class Gyro {
 
   explicit Gyro(B& bus) : bus_(bus) {}
 
-  template <hal::Clock C>
-  const hal::GyroReading& read(const C& clock) noexcept {
+  const hal::GyroReading& read() noexcept {
     if (pause_ticks_ != 0) {
       --pause_ticks_;
       return reading_;
     }
     if (fetched_) {
       fetched_ = false;
-      decode(clock);
+      decode();
       return reading_;
     }
     if (!under_way_) {
@@ -104,8 +103,7 @@ class Gyro {
   }
 
   /// In a tick of its own.
-  template <hal::Clock C>
-  void decode(const C& clock) {
+  void decode() {
     pause_ticks_ = std::max(kPeriod_ticks - 2 - busy_ticks_, 0);
     const auto bytes = bus_.bytes();
     const auto word = [&bytes](std::size_t place) {
@@ -122,7 +120,7 @@ class Gyro {
     if (chip().temperature_at != GyroChip::kNoTemperature)
       reading_.temperature_cC = static_cast<std::int16_t>(
           (word(chip().temperature_at) * chip().temperature_16 >> 16) + chip().temperature_zero_cC);
-    reading_.time_us = clock.now_us();
+    ++reading_.number;
     reading_.state = State::running;
     if (same_ >= kFrozen_samples) [[unlikely]]
       fail(false);

@@ -126,7 +126,7 @@ concept System = requires(T& system) {
   noexcept->std::same_as<void>;
 };
 
-/// What a rate gyro measured last, and since when it has been so.
+/// What a rate gyro measured last.
 struct GyroReading {
   enum class State : std::uint8_t {
     absent,    // nothing answers, or what answers is no gyro that the board knows
@@ -141,7 +141,7 @@ struct GyroReading {
   std::int16_t temperature_cC = kNoTemperature;  // 0.01 degrees Celsius
   std::array<std::int16_t, 3> rate{};            // about the sensor's own axes x, y and z, counts
   std::uint32_t count_nradps = 0;                // what a count is, 1e-9 rad/s
-  std::uint64_t time_us = 0;                     // when the sample came; another time for each sample
+  std::uint32_t number = 0;  // of the sample, wraps: another one for each, also of one that repeats itself
 };
 
 /// Without the call of a library that a comparison of arrays is.

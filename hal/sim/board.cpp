@@ -38,7 +38,7 @@ void Board::advance_tick() {
     chassis_.jump(restart_slip_.advance(wheels_rad[0] * radius_m_[0], wheels_rad[1] * radius_m_[1]));
   if (wheels_rad[0] != 0.0 || wheels_rad[1] != 0.0) roll(wheels_rad);
   if (gyro_.exists()) [[unlikely]]
-    gyro_.advance(chassis_.pose().theta_rad, clock_.now_us());
+    gyro_.advance(chassis_.pose().theta_rad);
 }
 
 // The tyres hand the wall's force on to the wheels, as far as they grip. A tyre that skids moves the body no further and holds its

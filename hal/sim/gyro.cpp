@@ -33,7 +33,7 @@ double Gyro::bias_radps() const {
   return gyro_.bias_radps + walked_radps_ + gyro_.bias_per_K_radps * (gyro_.temperature_C - 25.0);
 }
 
-void Gyro::advance(double heading_rad, std::uint64_t now_us) {
+void Gyro::advance(double heading_rad) {
   using State = hal::GyroReading::State;
   at_ = at_ + 1 < headings_.size() ? at_ + 1 : 0;
   headings_[at_] = heading_rad;
@@ -48,7 +48,7 @@ void Gyro::advance(double heading_rad, std::uint64_t now_us) {
   }
   if ((ticks_ - kStart_ticks) % kPeriod_ticks != 0 || fault_ == GyroFault::silent) return;
   reading_.state = State::running;
-  reading_.time_us = now_us;
+  ++reading_.number;
   if (fault_ != GyroFault::frozen) sample();
 }
 

@@ -34,7 +34,7 @@ class Gyro {
 
   bool exists() const { return exists_; }
   /// One tick has passed; `heading_rad` is the body's, not wrapped.
-  void advance(double heading_rad, std::uint64_t now_us);
+  void advance(double heading_rad);
   /// The body was put down with this heading, which is no motion.
   void place(double heading_rad);
   /// The processor has restarted, and with it what it knows of the gyro.

@@ -23,17 +23,6 @@
 /// A program has one of them.
 namespace astro::teensy40 {
 
-/// A gyro on the I2C bus, if there is one.
-class Gyro {
- public:
-  Gyro(I2c& bus, const Clock& clock) : sensor_(bus), clock_(clock) {}
-  const hal::GyroReading& read() noexcept { return sensor_.read(clock_); }
-
- private:
-  i2c::Gyro<I2c> sensor_;
-  const Clock& clock_;
-};
-
 class Board {
  public:
   Board();
@@ -44,7 +33,7 @@ class Board {
   Encoders& encoders() { return encoders_; }
   Motors& motors() { return motors_; }
   Battery& battery() { return battery_; }
-  Gyro& gyro() { return gyro_; }
+  i2c::Gyro<I2c>& gyro() { return gyro_; }
   Ports& ports() { return ports_; }
   Flash& flash() { return flash_; }
   System& system() { return system_; }
@@ -56,7 +45,7 @@ class Board {
   Encoders encoders_;
   Battery battery_;
   I2c i2c_;
-  Gyro gyro_{i2c_, clock_};
+  i2c::Gyro<I2c> gyro_{i2c_};  // if there is one
   Flash flash_;
   Uart uart_;
   UsbSerial usb_;

@@ -99,7 +99,7 @@ bool GyroHeading::take_slip(UnseenTurn& slip) {
 }
 
 bool GyroHeading::advance(const hal::GyroReading& reading, const Drive& drive, std::uint64_t now_us) {
-  if (reading.time_us != sample_us_) take_sample(reading);
+  if (reading.number != sample_) take_sample(reading);
   ++held_ticks_;
   switch (drive.phase()) {
     case kFilterPhase:
@@ -140,7 +140,7 @@ void GyroHeading::hold() {
 
 void GyroHeading::take_sample(const hal::GyroReading& reading) {
   hold();
-  sample_us_ = reading.time_us;
+  sample_ = reading.number;
   age_ticks_ = 0;
   same_ = hal::same_rate(reading.rate, rate_) ? std::min(same_ + 1, kFrozen_samples) : 0;
   rate_ = reading.rate;

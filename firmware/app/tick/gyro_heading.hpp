@@ -98,7 +98,7 @@ class GyroHeading {
   std::size_t up_ = 0;     // where that axis stands in a sample
   std::int32_t sum_ = 0;   // of the readings in this step, counts
   State state_ = State::off, worst_ = State::off;
-  std::uint64_t sample_us_ = 0;
+  std::uint32_t sample_ = 0;            // its number
   int age_ticks_ = 0;                   // of the newest sample, without the ticks that it is held now
   int held_ticks_ = 0;                  // that are not yet in the sum
   std::array<std::int16_t, 3> rate_{};  // of the newest sample

@@ -80,7 +80,7 @@ void World::event() {
   machine_.wake(*this, machine_.now() + kStep);
   move();
   if (turning_radps_ != 0) chassis_.jump(turning_radps_ * 1e-3);
-  if (gyro_.exists()) gyro_.advance(chassis_.pose().theta_rad, machine_.now() / kCyclesPerMicrosecond);
+  if (gyro_.exists()) gyro_.advance(chassis_.pose().theta_rad);
 }
 
 void World::move() {

@@ -72,25 +72,20 @@ class FakeBus {
 };
 static_assert(Bus<FakeBus>);
 
-struct Clock {
-  std::uint64_t now = 0;
-  std::uint64_t now_us() const noexcept { return now; }
-};
-
 struct Rig {
   FakeBus bus;
-  Clock clock;
   Gyro<FakeBus> gyro{bus};
   hal::GyroReading reading;
 
   const hal::GyroReading& run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
-      clock.now += 1000;
-      if (moves) bus.registers[moving] = static_cast<std::uint8_t>(clock.now / 1000 % 199);
-      reading = gyro.read(clock);
+      ++tick;
+      if (moves) bus.registers[moving] = static_cast<std::uint8_t>(tick % 199);
+      reading = gyro.read();
     }
     return reading;
   }
+  unsigned tick = 0;
   bool moves = true;
   std::uint8_t moving = 0x06;  // the lower byte of Z, here of the FXAS21002C
 };
@@ -165,12 +160,15 @@ TEST(I2cGyro, SamplesComeEveryFiveTicksHoweverLongATransferTakesUpToThree) {
     plug_fxas(rig.bus);
     rig.bus.calls = calls;
     rig.run(300);
-    std::uint64_t last_us = rig.run(10).time_us;
-    for (int i = 0; i < 20; ++i) {
-      const std::uint64_t now_us = rig.run(5).time_us;
-      EXPECT_EQ(now_us - last_us, 5000U) << calls;
-      last_us = now_us;
-    }
+    const auto ticks_to_next = [&rig] {
+      const std::uint32_t last = rig.reading.number;
+      int ticks = 0;
+      for (; rig.reading.number == last && ticks < 10; ++ticks) rig.run(1);
+      EXPECT_EQ(rig.reading.number, last + 1);
+      return ticks;
+    };
+    ticks_to_next();
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(ticks_to_next(), 5) << calls;
   }
 }
 
@@ -216,9 +214,9 @@ TEST(I2cGyro, ASampleThatIsLostCostsNoMoreThanItsReleaseAndFourInARowAreAFailure
   };
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(lose_one());
-    const std::uint64_t lost_us = rig.clock.now;
+    const std::uint32_t last = rig.reading.number;
     EXPECT_EQ(rig.run(22 + 5).state, State::running) << i;
-    EXPECT_GT(rig.reading.time_us, lost_us) << "22 ticks of the release, and a sample: " << i;
+    EXPECT_NE(rig.reading.number, last) << "22 ticks of the release, and a sample: " << i;
   }
   EXPECT_EQ(rig.bus.written.size(), gyro_chips::kFxas21002c.size()) << "not started again";
   rig.bus.answer = Transfer::lost;
@@ -260,10 +258,10 @@ TEST(I2cGyro, AChipThatWasResetWhileItTurnsIsToldWithinTheMissesAndNoneOfItsZero
   const std::size_t once = rig.bus.written.size();
   rig.bus.registers = {{0x0C, 0xD7}};  // in standby
   rig.moves = false;
-  const std::uint64_t last_us = rig.reading.time_us;
+  const std::uint32_t last = rig.reading.number;
   rig.run(25);
   EXPECT_EQ(rig.reading.state, State::failed) << "four misses, of five ticks each";
-  EXPECT_LE(rig.reading.time_us, last_us + 5000) << "the one that was under way at most";
+  EXPECT_LE(rig.reading.number, last + 1) << "the one that was under way at most";
   EXPECT_EQ(rig.reading.rate[1], -2);
   for (int tick = 0; tick < 1500 && rig.bus.written.size() < 2 * once; ++tick) {
     rig.run(1);

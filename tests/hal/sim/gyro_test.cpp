@@ -20,12 +20,12 @@ struct Said {
 };
 Said said(Board& board, int ms, std::size_t axis = 2) {
   Said sum;
-  std::uint64_t last_us = board.gyro().read().time_us;
+  std::uint32_t last = board.gyro().read().number;
   for (int i = 0; i < ms; ++i) {
     board.advance_tick();
     const hal::GyroReading reading = board.gyro().read();
-    if (reading.time_us == last_us) continue;
-    last_us = reading.time_us;
+    if (reading.number == last) continue;
+    last = reading.number;
     sum.rad += reading.rate[axis] * 1e-9 * reading.count_nradps * Gyro::kPeriod_ticks * 1e-3;
     ++sum.samples;
   }

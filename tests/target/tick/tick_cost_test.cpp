@@ -93,12 +93,12 @@ class TickCostWithGyro : public TickCost {
   }
 };
 
-TEST_F(TickCostWithGyro, AWholeTickIsWithin1040InstructionsOnAverageAnd1380AtMost) {
+TEST_F(TickCostWithGyro, AWholeTickIsWithin1020InstructionsOnAverageAnd1300AtMost) {
   robot::upload(client_, {{"gyro_axis", 3.0}});
   client_.pump(1500ms);  // until the bias is known
   const TickProfile::Cost whole = expect_within(350);
-  EXPECT_LE(whole.mean, 1040);
-  EXPECT_LE(whole.worst, 1380U);
+  EXPECT_LE(whole.mean, 1020);
+  EXPECT_LE(whole.worst, 1300U);
 }
 
 TEST_F(TickCost, TheFirstTickComesWithin50Milliseconds) {
