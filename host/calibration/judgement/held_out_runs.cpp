@@ -79,10 +79,15 @@ void CrossValidation::require_more_than_drift(const Eigen::VectorXd& change, con
   const auto is_within = [&](const Eigen::MatrixXd& covariance) {
     return change.dot(covariance.ldlt().solve(change)) <= chi_square_95(static_cast<int>(change.size()));
   };
-  if (verdict != Verdict::better || !is_within(own + another_day)) return;
-  within_drift = is_within(another_day - own);
-  within_errors_and_drift = !within_drift;
+  const bool too_few = verdict == Verdict::unknown && not_judged.size() == 1 &&
+                       not_judged.front().kind == JudgementProblem::too_few_drives;
+  if ((verdict != Verdict::better && !too_few) || !is_within(own + another_day)) return;
+  const bool by_drift_alone = is_within(another_day - own);
+  if (too_few && !by_drift_alone) return;  // more drives may show a difference
+  within_drift = by_drift_alone;
+  within_errors_and_drift = !by_drift_alone;
   verdict = Verdict::undecided;
+  if (too_few) not_judged.clear();
 }
 
 Remark CrossValidation::without(const std::vector<std::string>& held_out, const Error& error) {

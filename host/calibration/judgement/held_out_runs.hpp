@@ -55,8 +55,9 @@ struct CrossValidation {
 
   /// Sets the verdict.
   void judge();
-  /// Takes "better" back if the factors in use may have been right on another day. They have an error of their own, which is taken
-  /// to be like that of these drives. `change` is from them to those found, in at most four independent quantities that these
+  /// Takes "better" back if the factors in use may have been right on another day, and "too small for so few drives" if more of
+  /// them would show no more than that. The factors in use have an error of their own, which is taken to be like that of these
+  /// drives. `change` is from them to those found, in at most four independent quantities that these
   /// drives show; `own` and `another_day` are the covariances of what was found, without and with what changes from day to day.
   void require_more_than_drift(const Eigen::VectorXd& change, const Eigen::MatrixXd& own,
                                const Eigen::MatrixXd& another_day);

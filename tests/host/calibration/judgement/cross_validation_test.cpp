@@ -115,6 +115,33 @@ TEST(CrossValidation, CallsItLittleToGainOnlyWhereTheDriftAloneExplainsTheChange
   EXPECT_FALSE(uncertain.little_to_gain());
 }
 
+// Whoever drives more then finds again that there is little to gain.
+TEST(CrossValidation, AsksForMoreDrivesOnlyWhereTheyMayShowMoreThanADrift) {
+  const auto judged = [](double change, double own) {
+    CrossValidation out;
+    out.runs.resize(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      out.runs[i].gain = i % 2 == 0 ? 2 : -1;
+      out.runs[i].claimed = 3;  // 12 together: significant, but drives as few as these need not show it
+    }
+    out.judge();
+    EXPECT_EQ(out.verdict, Verdict::unknown);
+    out.require_more_than_drift(Eigen::VectorXd::Constant(1, change),
+                                Eigen::MatrixXd::Constant(1, 1, own * own),
+                                Eigen::MatrixXd::Constant(1, 1, own * own + 1));
+    return out;
+  };
+  const CrossValidation within = judged(1.9, 0.1);
+  EXPECT_EQ(within.verdict, Verdict::undecided);
+  EXPECT_TRUE(within.within_drift);
+  EXPECT_TRUE(within.not_judged.empty());
+  for (const CrossValidation& open : {judged(3, 0.1), judged(3, 2)}) {
+    EXPECT_EQ(open.verdict, Verdict::unknown);
+    ASSERT_EQ(open.not_judged.size(), 1U);
+    EXPECT_EQ(open.not_judged[0].kind, JudgementProblem::too_few_drives);
+  }
+}
+
 // The lever arm of a session is not known without its only drive, so it is fitted to that drive.
 TEST(CrossValidation, HoldsOutTheOnlyDriveOfASession) {
   DriveModel model = astro_drive();

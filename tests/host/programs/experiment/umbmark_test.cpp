@@ -127,8 +127,10 @@ TEST(Umbmark, EndsWithTheGyroOfARobotThatUsesOne) {
   EXPECT_LE(support::widest_line(outcome.out), 80U) << outcome.out;
 }
 
+// With so little slip the two calibrations differ by a hundredth of what robots change by from one day to another, whatever the
+// drives are. The wheelbase of gentle arcs is beyond what these drives show.
 TEST(Umbmark, YesLoadsNothingThatIsNotBetterAndEndsWithAReportOfWhatWasDriven) {
-  const Simulator simulator({"--fast", "--slip", "0"});
+  const Simulator simulator({"--fast", "--slip", "1e-8"});
   const auto run = [&](const char* name) {
     return astrolabe(
         umbmark(simulator, (simulator.folder() / name).string(), {"--runs", "2", "--no-extras"}));
