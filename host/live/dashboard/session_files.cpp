@@ -73,6 +73,8 @@ fs::path SessionFiles::keep(const fs::path& file, const fs::path& to) {
   fs::create_directories(to, failed);
   if (!failed) fs::copy_file(file, kept, failed);
   if (!failed) return fs::weakly_canonical(kept);
+  std::error_code ignored;
+  fs::remove(kept, ignored);  // the part for which the disk had room
   stays_ = true;
   throw Error(fmt::format("{} cannot be written ({}): the recording stays at {}", kept.string(),
                           failed.message(), file.string()));

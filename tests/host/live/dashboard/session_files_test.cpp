@@ -1,7 +1,9 @@
 #include "host/live/dashboard/session_files.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -79,6 +81,28 @@ TEST(SessionFiles, StayWhereTheyAreIfTheyCannotBeKept) {
     EXPECT_THROW(files.keep(folder / "a.mcap", folder / "a.mcap/below"), Error);
   }
   EXPECT_EQ(fs::file_size(folder / "a.mcap"), 5U);
+  fs::remove_all(folder);
+}
+
+// As on a full disk: no file of this process grows beyond a few kilobytes.
+TEST(SessionFiles, LeaveNoPartOfACopyThatDoesNotFit) {
+  const test::TemporaryFolder to;
+  fs::path folder;
+  {
+    SessionFiles files;
+    folder = files.folder();
+    write(folder / "a.mcap", std::string(100'000, 'd'));
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{4096, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    EXPECT_THROW(files.keep(folder / "a.mcap", to.path()), Error);
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+  }
+  EXPECT_FALSE(fs::exists(to.path() / "a.mcap"));
+  EXPECT_EQ(fs::file_size(folder / "a.mcap"), 100'000U);
   fs::remove_all(folder);
 }
 
