@@ -33,7 +33,7 @@ class RelayedFirmware : public test::RelayRig {
     };
     tick = [this] {
       robot_.step();
-      witness.look(support::drive_of(robot_).mode(), robot_.robot().parameters());
+      witness.look(support::drive_of(robot_), robot_.robot().parameters());
       return sent_at_shared_port();
     };
     run(std::chrono::milliseconds(60));  // through boot

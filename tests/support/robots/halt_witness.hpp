@@ -7,6 +7,7 @@
 
 #include "common/params/parameter_set.hpp"
 #include "common/protocol/messages.hpp"
+#include "firmware/app/tick/drive.hpp"
 
 namespace astro::support {
 
@@ -43,14 +44,16 @@ class HaltWitness {
   }
 
   /// After every millisecond. `set`: the robot's parameters, whose limits say how long a ramp may take.
-  void look(protocol::Mode mode, const ParameterSet& set) {
+  void look(const Drive& drive, const ParameterSet& set) {
     using protocol::Mode;
+    const Mode mode = drive.mode();
     const bool on_path = mode == Mode::segment;
     const bool drives = on_path || mode == Mode::velocity || mode == Mode::wheels;
-    // A path that is paused ramps down in its own mode, and in no more time than a ramp takes.
+    // A path that is paused ramps down in its own mode, and in no more time than a ramp takes. A robot that is not where its
+    // reference rests by then has a little longer to come there.
     pausing_ms_ = paused() && on_path ? pausing_ms_ + 1 : 0;
-    const bool may_still_ramp =
-        on_path && !rested_ && (pausing_ms_ == 0 || pausing_ms_ <= longest_ramp_ms(set));
+    const int longest_ms = longest_ramp_ms(set) + (drive.follower().arrived() ? kSettles_ms : 0);
+    const bool may_still_ramp = on_path && !rested_ && pausing_ms_ <= longest_ms;
     if (drives && (stopped() || (paused() && !may_still_ramp)) && violation_.empty())
       violation_ = "the robot drives after a halt that nobody has lifted";
     rested_ = rested_ || !drives;
@@ -67,6 +70,8 @@ class HaltWitness {
     Host from;
     std::uint8_t message = 0;
   };
+
+  static constexpr int kSettles_ms = 710;  // and then a segment ends, at the boundary of ten ticks
 
   /// From top speed to rest. A ramp that begins while the robot still speeds up takes that back first, so both of its rounded
   /// ends and one more count.

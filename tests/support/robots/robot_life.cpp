@@ -344,7 +344,7 @@ class Life {
 
   void look() {
     const Drive& drive = drive_of(robot_);
-    witness_.look(drive.mode(), robot_.robot().parameters());
+    witness_.look(drive, robot_.robot().parameters());
     if (!witness_.violation().empty()) return violate(witness_.violation().c_str());
     const Mode mode = drive.mode();
     ++silent_ms_;
