@@ -33,8 +33,8 @@ if(ASTRO_PROCESSOR_${ASTROLABE_TARGET})
     -fno-threadsafe-statics -fno-use-cxa-atexit -fno-common -fno-schedule-insns -fno-jump-tables
     -ffunction-sections -fdata-sections -flto=auto -flto-partition=one)
   target_compile_options(astro_compile INTERFACE ${bare_metal})
-  # What functions take of the stack is known where they are compiled in the end. ccache would keep no object for which a
-  # compiler that was told so has written nothing.
+  # -fstack-usage is for the link alone, where the code is generated and the list is written. ccache keeps no object whose
+  # compiler was asked for a list and wrote none.
   target_link_options(astro_compile INTERFACE ${bare_metal} -fstack-usage)
 endif()
 if(ASTROLABE_TARGET STREQUAL web)

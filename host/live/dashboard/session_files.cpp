@@ -74,7 +74,8 @@ fs::path SessionFiles::keep(const fs::path& file, const fs::path& to) {
   if (!failed) fs::copy_file(file, kept, failed);
   if (!failed) return fs::weakly_canonical(kept);
   std::error_code ignored;
-  fs::remove(kept, ignored);  // the part for which the disk had room
+  // The part for which the disk had room; but not what somebody else has put there meanwhile.
+  if (failed != std::errc::file_exists) fs::remove(kept, ignored);
   stays_ = true;
   throw Error(fmt::format("{} cannot be written ({}): the recording stays at {}", kept.string(),
                           failed.message(), file.string()));

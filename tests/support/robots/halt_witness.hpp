@@ -12,7 +12,7 @@
 namespace astro::support {
 
 /// Checks from outside that a stop holds: it sees which requests the robot took, in their order, and its mode after every
-/// millisecond. It goes through the list of what came since the last Arm each time, where the firmware keeps flags.
+/// millisecond, and whether the reference of its path rests. It goes through the list of what came since the last Arm each time, where the firmware keeps flags.
 class HaltWitness {
  public:
   struct Host {
@@ -49,11 +49,13 @@ class HaltWitness {
     const Mode mode = drive.mode();
     const bool on_path = mode == Mode::segment;
     const bool drives = on_path || mode == Mode::velocity || mode == Mode::wheels;
-    // A path that is paused ramps down in its own mode, and in no more time than a ramp takes. A robot that is not where its
-    // reference rests by then has a little longer to come there.
+    // A path that is paused ramps down in its own mode, and in no more time than a ramp takes. Then the reference rests, and the
+    // robot has a little time to come to it.
+    const bool arrived = drive.follower().arrived();
     pausing_ms_ = paused() && on_path ? pausing_ms_ + 1 : 0;
-    const int longest_ms = longest_ramp_ms(set) + (drive.follower().arrived() ? kSettles_ms : 0);
-    const bool may_still_ramp = on_path && !rested_ && pausing_ms_ <= longest_ms;
+    settling_ms_ = pausing_ms_ > 0 && arrived ? settling_ms_ + 1 : 0;
+    const bool in_time = arrived ? settling_ms_ <= kSettles_ms : pausing_ms_ <= longest_ramp_ms(set);
+    const bool may_still_ramp = on_path && !rested_ && in_time;
     if (drives && (stopped() || (paused() && !may_still_ramp)) && violation_.empty())
       violation_ = "the robot drives after a halt that nobody has lifted";
     rested_ = rested_ || !drives;
@@ -71,7 +73,8 @@ class HaltWitness {
     std::uint8_t message = 0;
   };
 
-  static constexpr int kSettles_ms = 710;  // and then a segment ends, at the boundary of ten ticks
+  // The firmware gives up after 700 ms, and ends a segment at the boundary of ten ticks.
+  static constexpr int kSettles_ms = 710;
 
   /// From top speed to rest. A ramp that begins while the robot still speeds up takes that back first, so both of its rounded
   /// ends and one more count.
@@ -122,6 +125,7 @@ class HaltWitness {
   std::vector<Request> since_;  // halts and Resumes that were taken since the last Arm, the oldest first
   bool rested_ = false;         // since the last Arm, Pause or Resume the robot has been seen not to drive
   int pausing_ms_ = 0;          // for how long it has been on a path that is paused
+  int settling_ms_ = 0;         // of that, since its reference rests
   std::string violation_;
 };
 

@@ -124,8 +124,8 @@ TEST_F(BoundedFiles, TomlOfManyShortValuesStaysWithinTheBarOrIsTooLarge) {
 }
 
 TEST_F(BoundedFiles, JournalWithCountsThatNobodyDrivesIsDamaged) {
-  const std::vector<std::string> counts = {"1e999",      "2147483647", "1e300", "-1e300",
-                                           "4294967301", "2.5",        "true",  "\"5\""};
+  const std::vector<std::string> counts = {"1e999",  "\"5\"",      "2147483647", "1e300",
+                                           "-1e300", "4294967301", "2.5",        "true"};
   for (int i = 0; i < support::how_many_alike(static_cast<int>(counts.size())); ++i)
     for (const std::string key : {"runs", "rounds", "most"}) {
       SCOPED_TRACE(key + " = " + counts[i]);

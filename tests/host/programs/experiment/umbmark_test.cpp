@@ -127,7 +127,7 @@ TEST(Umbmark, EndsWithTheGyroOfARobotThatUsesOne) {
   EXPECT_LE(support::widest_line(outcome.out), 80U) << outcome.out;
 }
 
-// With so little slip the two calibrations differ by a hundredth of what robots change by from one day to another, whatever the
+// With so little slip the two calibrations differ by far less than what robots change by from one day to another, whatever the
 // drives are. The wheelbase of gentle arcs is beyond what these drives show.
 TEST(Umbmark, YesLoadsNothingThatIsNotBetterAndEndsWithAReportOfWhatWasDriven) {
   const Simulator simulator({"--fast", "--slip", "1e-8"});
