@@ -69,7 +69,8 @@ void add_calibrate_bag(console::Command calibrate) {
       throw console::WrongUsage("--K, --sigma-xy, --sigma-theta and --clock do not apply to scans");
     if (by_scans) return calibrate_by_scans(with_scans(import), options->output, options->scans);
     if (options->scans.given())
-      throw console::WrongUsage("--range-scale-error is of scans, and these bags have poses");
+      throw console::WrongUsage(
+          "--range-scale-error and --loaded-scale-error are of scans, and these bags have poses");
     import.truth = import.wheels;
     const experiment::RunSet set = read_drive_files(options->import);
     put_out(experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()), set,

@@ -62,7 +62,8 @@ void add_calibrate_files(console::Command calibrate) {
       return calibrate_by_scans(options->import, options->output, options->scans);
     if (options->scans.given())
       throw console::WrongUsage(
-          "--scan-topic and --range-scale-error do not apply here: no --truth is scan:FILE");
+          "--scan-topic, --range-scale-error and --loaded-scale-error do not apply here: no --truth is "
+          "scan:FILE");
     const experiment::RunSet set = read_drive_files(options->import);
     put_out(experiment::calibrate(set, {experiment::MethodChoice::Family::ml, {}}, options->ml.choice()), set,
             options->output);

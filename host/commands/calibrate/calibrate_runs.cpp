@@ -39,7 +39,7 @@ struct RunsOptions {
   MlOption ml;
   MethodOption method;
   FilmTruthOption film;
-  RangeScaleOption range_scale;
+  ScaleOptions scales;
   bool damaged = false, session_per_folder = false, mirrored = false;
 };
 
@@ -52,11 +52,11 @@ void mirror_scans(experiment::RunSet& set) {
   }
 }
 
-void set_range_scale(experiment::RunSet& set, const RangeScaleOption& range_scale) {
+void set_range_scale(experiment::RunSet& set, const ScaleOptions& scales) {
   for (recording::Run& run : set.runs) {
     if (run.scans.empty())
       throw console::WrongUsage("--range-scale-error is of scans, and not all runs have scans");
-    run.info.truth_scale_sigma = range_scale.sigma();
+    run.info.truth_scale_sigma = scales.range_sigma();
   }
 }
 
@@ -69,12 +69,12 @@ void calibrate_runs(const RunsOptions& options) {
   if (options.session_per_folder) set.sessions = experiment::sessions_by_folder(set, options.folder);
   give_truth(set, options.film);
   if (options.mirrored) mirror_scans(set);
-  if (options.range_scale.option.count() > 0) set_range_scale(set, options.range_scale);
+  if (options.scales.range.count() > 0) set_range_scale(set, options.scales);
   // Scans calibrate by themselves; all other methods take the poses that follow from them.
   using Family = experiment::MethodChoice::Family;
   if (method.family == Family::ml || method.family == Family::end_poses)
     experiment::give_missing_truth_by_scans(set.runs);
-  const experiment::Calibration found = experiment::calibrate(set, method, options.ml.choice());
+  experiment::Calibration found = experiment::calibrate(set, method, options.ml.choice());
   if (found.ml() == nullptr && options.session_per_folder)
     throw Error(fmt::format("--session-per-folder is of maximum likelihood, and this is {}: leave it out",
                             found.method()));
@@ -83,6 +83,10 @@ void calibrate_runs(const RunsOptions& options) {
         fmt::format("--K, --sigma-xy, --sigma-theta and --clock are of maximum likelihood, and this "
                     "is {}: leave them out",
                     found.method()));
+  if (found.scans() == nullptr && options.scales.loaded.count() > 0)
+    throw Error(
+        fmt::format("--loaded-scale-error is of scans, and this is {}: leave it out", found.method()));
+  options.scales.weigh_loaded(found);
   put_out(found, set, options.output);
 }
 
@@ -167,7 +171,7 @@ void add_calibrate_runs(console::Command calibrate) {
       .one_each_time();
   command.add_flag("--truth-mirrored", options->mirrored,
                    "scans: the laser scanner hung upside down, or its\nbeams ran the other way round");
-  add_range_scale(command, options->range_scale);
+  add_scales(command, options->scales);
   add_damaged_flag(command, options->damaged);
   add_session_flag(command, options->session_per_folder);
   add_film_truth(command, options->film);

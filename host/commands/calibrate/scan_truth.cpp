@@ -78,18 +78,26 @@ bool names_scans(const ImportOptions& options) {
                      [](const fs::path& word) { return scans_named(word).has_value(); });
 }
 
-void add_range_scale(console::Command command, RangeScaleOption& range_scale) {
-  range_scale.option =
-      add_ranged(command, "--range-scale-error", range_scale.percent,
+void ScaleOptions::weigh_loaded(experiment::Calibration& found) const {
+  if (loaded.count() > 0) experiment::weigh_loaded_scale(loaded_percent / 100, found);
+}
+
+void add_scales(console::Command command, ScaleOptions& scales) {
+  scales.range =
+      add_ranged(command, "--range-scale-error", scales.range_percent,
                  "scans: standard error of the scale of the scanner's\nranges, which no drive shows",
                  "PERCENT", 0.001, 20, "%");
+  scales.loaded = add_ranged(command, "--loaded-scale-error", scales.loaded_percent,
+                             "scans: standard error of the S that is loaded, if a\ntape or a tracker has "
+                             "measured it: then it counts, too",
+                             "PERCENT", 0.001, 20, "%");
 }
 
 void add_scan_options(console::Command command, ScanOptions& options) {
   advise(kScanAdvice);
   command.add_option("--scan-topic", options.topic, "bags: the topic of the laser scanner's scans")
       .type_name("TOPIC");
-  add_range_scale(command, options.range_scale);
+  add_scales(command, options.scales);
 }
 
 void calibrate_by_scans(const ImportOptions& options, const CalibrationOutput& output,
@@ -102,7 +110,8 @@ void calibrate_by_scans(const ImportOptions& options, const CalibrationOutput& o
   for (const Remark& remark : drives.remarks) console::say(in_words(remark));
   const bool mirrored = options.mirrored == "yes";
   experiment::Calibration found = experiment::calibration_of(
-      lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored), scans.range_scale.sigma());
+      lidar::calibrate_by_scans(drives.drives, drives.loaded, mirrored), scans.scales.range_sigma());
+  scans.scales.weigh_loaded(found);
   found.wheel = drives.wheel;
   put_out(
       found, output, [&] { return experiment::scan_report(found, drives.drives, mirrored); },

@@ -5,6 +5,7 @@
 #include "host/commands/calibrate/calibration_output.hpp"
 #include "host/commands/shared/import_options.hpp"
 #include "host/console/options.hpp"
+#include "host/experiment/analysis/calibration.hpp"
 #include "host/lidar/scan.hpp"
 
 /// The scans of the robot's own laser scanner as ground truth: --truth scan:FILE.
@@ -13,24 +14,28 @@ namespace astro::commands {
 /// Whether one of the truths is "scan:FILE".
 bool names_scans(const ImportOptions& options);
 
-/// --range-scale-error: the standard error of the common scale of a scanner's ranges, in per cent.
-struct RangeScaleOption {
-  double percent = 100 * lidar::kRangeScaleSigma;
-  console::Option option;
+/// --range-scale-error: the standard error of the common scale of a scanner's ranges, in per cent; and --loaded-scale-error, that of
+/// the S that the robot carries.
+struct ScaleOptions {
+  double range_percent = 100 * lidar::kRangeScaleSigma, loaded_percent = 0;
+  console::Option range, loaded;
 
-  double sigma() const { return percent / 100; }
+  double range_sigma() const { return range_percent / 100; }
+  bool given() const { return range.count() > 0 || loaded.count() > 0; }
+  /// If --loaded-scale-error is given. Precondition: found by scans.
+  void weigh_loaded(experiment::Calibration& found) const;
 };
-void add_range_scale(console::Command command, RangeScaleOption& range_scale);
+void add_scales(console::Command command, ScaleOptions& scales);
 
 /// What is said of scans in files and bags.
 struct ScanOptions {
   std::string topic;
-  RangeScaleOption range_scale;
+  ScaleOptions scales;
 
-  bool given() const { return !topic.empty() || range_scale.option.count() > 0; }
+  bool given() const { return !topic.empty() || scales.given(); }
 };
 
-/// --scan-topic and --range-scale-error.
+/// --scan-topic, --range-scale-error and --loaded-scale-error.
 void add_scan_options(console::Command command, ScanOptions& options);
 
 /// Calibrates by scans and puts the result out; the exit code is 3 unless the factors are shown to be better. Throws

@@ -315,6 +315,14 @@ void add_drift(Calibration& result) {
                                            covariance_of(on_another_day));
 }
 
+/// What scans say of the factors.
+void take_factors(const lidar::ScanCalibration& found, Calibration& result) {
+  result.factors = found.factors;
+  result.se = factor_errors(found.covariance, result);
+  result.covariance_another_day = found.covariance + result.drift.covariance(found.factors);
+  result.se_another_day = factor_errors(*result.covariance_another_day, result);
+}
+
 void require_truth(Phases phases) {
   for (const auto& phase : phases)
     for (const recording::Run& run : phase->runs())
@@ -411,13 +419,26 @@ Calibration calibration_of(lidar::ScanCalibration found, double range_scale_sigm
   Calibration result;
   result.truth_scale_sigma = range_scale_sigma;
   result.loaded = found.loaded;
-  result.factors = found.factors;
-  result.se = factor_errors(found.covariance, result);
-  result.covariance_another_day = found.covariance + result.drift.covariance(found.factors);
-  result.se_another_day = factor_errors(*result.covariance_another_day, result);
   result.judgement.verdict = verdict_of(found);
+  take_factors(found, result);
   result.detail = std::move(found);
   return result;
+}
+
+void weigh_loaded_scale(double sigma, Calibration& result) {
+  auto& found = std::get<lidar::ScanCalibration>(result.detail);
+  calibration::WheelFactors& factors = found.factors;
+  const double loaded = (found.loaded.c_r + found.loaded.c_l) / 2;
+  const Eigen::Vector4d by(0.5, 0.5, 0, 0), with_scale = found.covariance * by;
+  const Eigen::Vector4d gain = with_scale / (by.dot(with_scale) + std::pow(sigma * loaded, 2));
+  const Eigen::Vector4d change = gain * (loaded - result.scale());
+  factors.c_r += change(0);
+  factors.c_l += change(1);
+  factors.b_m += change(2);
+  factors.e += change(3);
+  found.covariance -= gain * with_scale.transpose();
+  result.loaded_scale_sigma = sigma;
+  take_factors(found, result);
 }
 
 Calibration calibrate(const Recordings& recordings, const MethodChoice& method, const MlChoice& ml) {

@@ -63,6 +63,8 @@ struct Calibration {
   /// errors of c_R, c_L, b and S. It is infinite if nobody measured a length; then S stays as loaded, and only E_d and b / S
   /// are found.
   double truth_scale_sigma = 0;
+  /// Relative standard error of the loaded S, which then counts beside that of the scans; infinite if nobody has stated it.
+  double loaded_scale_sigma = std::numeric_limits<double>::infinity();
   /// The scale from measured lines, which `factors` already contain; none without lines, and none by maximum likelihood.
   std::optional<calibration::LineScale> line_scale;
   std::vector<std::string> left_out;  // squares that end poses do not use: which, and why
@@ -120,6 +122,11 @@ Calibration calibrate_after(std::span<const std::shared_ptr<const Recordings>> p
 /// From end poses and measured lines alone; automatic: robust. Throws astro::Error if the method is maximum likelihood,
 /// which needs more; and what calibration::estimate_factors and calibration::scale_of_lines throw.
 Calibration calibrate(const Squares& squares, const MethodChoice& method);
+
+/// Weighs the S that was found with the loaded one, whose relative standard error is `sigma`, by information: a scanner whose ranges
+/// are known to a per cent does not replace what a tape or a tracker knows better. The verdict stays, because it is about drives seen
+/// by that scanner. Precondition: found by scans, and loaded_scale_sigma is not stated yet.
+void weigh_loaded_scale(double sigma, Calibration& found);
 
 /// What scans say, as a calibration, with the standard error of the common scale of the scanner's ranges in the errors of c_R, c_L, b
 /// and S. Robot, wheel and squares are not known here.

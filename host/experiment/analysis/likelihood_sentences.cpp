@@ -115,11 +115,15 @@ std::string scale_sentence(const Calibration& found) {
   const lidar::ScanCalibration* scans = found.scans();
   const calibration::MlErrors errors =
       scans == nullptr ? found.ml()->estimate.se : calibration::errors_of(scans->covariance, scans->factors);
+  const std::string loaded = std::isinf(found.loaded_scale_sigma)
+                                 ? ""
+                                 : fmt::format(" The loaded S is known to {:.2g} % and counts with that.",
+                                               100 * found.loaded_scale_sigma);
   return fmt::format(
       "The scale of the {} is known to {:.2g} %, which is part of the errors of c_R, c_L, b and S; E_d and "
-      "b / S do not depend on it (b / S {} mm).",
+      "b / S do not depend on it (b / S {} mm).{}",
       scans == nullptr ? "ground truth" : "scanner's ranges", 100 * found.truth_scale_sigma,
-      with_error(1000 * found.factors.b_m / found.scale(), 1000 * errors.b_over_scale_m, 3));
+      with_error(1000 * found.factors.b_m / found.scale(), 1000 * errors.b_over_scale_m, 3), loaded);
 }
 
 std::string wheelbases_text(const calibration::WheelFactors& factors) {

@@ -177,6 +177,24 @@ TEST_F(ScannedExperiment, HasTheErrorOfTheRangesScaleWhichAPersonMayKnowBetter) 
   EXPECT_THAT(method_text(found), testing::HasSubstr("ranges is known to 1 %"));
 }
 
+TEST_F(ScannedExperiment, WeighsALoadedScaleThatIsKnownWithThatOfTheScansByInformation) {
+  run(scanned_plan());
+  const Calibration by_scans = calibrate(read_run_set(folder_.path() / "before"), {});
+  const double loaded = (by_scans.loaded.c_r + by_scans.loaded.c_l) / 2;
+  for (const double sigma : {5e-4, 0.01, 1.0}) {
+    Calibration found = by_scans;
+    weigh_loaded_scale(sigma, found);
+    const double of_scans = std::pow(by_scans.se.scale, -2), of_loaded = std::pow(sigma * loaded, -2);
+    EXPECT_NEAR(found.scale(), (of_scans * by_scans.scale() + of_loaded * loaded) / (of_scans + of_loaded),
+                1e-9);
+    EXPECT_NEAR(found.se.scale, 1 / std::sqrt(of_scans + of_loaded), 1e-9);
+    // Both depend on the scale by their correlation with it alone, which is far below their errors.
+    EXPECT_NEAR(found.E_d(), by_scans.E_d(), by_scans.se.E_d / 4);
+    EXPECT_NEAR(precision_of(found).b, precision_of(by_scans).b, 0.1 * precision_of(by_scans).b);
+    EXPECT_EQ(found.judgement.verdict, by_scans.judgement.verdict);
+  }
+}
+
 TEST_F(ScannedExperiment, WithoutTheScansOfOneRunIsNotCalibratedUnlessSomebodyNamesAMethod) {
   run(scanned_plan());
   RunSet set = read_run_set(folder_.path() / "before");
