@@ -98,7 +98,7 @@ class Dashboard::Impl {
 
   void keep(const std::filesystem::path& recording) {
     try {
-      notice_({"the recording that no page has saved is now " + files_.keep(recording, kept_in_).string()});
+      notice_({"the recording that no page has removed is now " + files_.keep(recording, kept_in_).string()});
     } catch (const Error& error) {
       notice_({error.what()});
     }

@@ -18,7 +18,7 @@ struct Settings {
   std::filesystem::path page;  // the folder of the page's files, with index.html
   page::RobotPorts ports{};    // `list` and `open` are called in two threads
   std::string port{};          // of the robot that is opened at the start; "": the pages choose
-  /// Gets the recordings that no page has saved when the dashboard ends.
+  /// Gets the recordings that no page has removed when the dashboard ends.
   std::filesystem::path recordings = ".";
   std::function<void(const Remark&)> notice = [](const Remark&) {};  // called in any thread
   /// A page that answers no ping for so long has gone, and a robot that it drives is stopped.

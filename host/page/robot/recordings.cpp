@@ -19,16 +19,16 @@ Recordings::~Recordings() {
     if (recording_) end();
   } catch (const std::exception&) {  // what is there of it is kept all the same
   }
-  for (const std::string& file : unsaved_) try {
+  for (const std::string& file : ended_) try {
       place_.keep(place_.folder / file);
     } catch (const std::exception&) {  // the others are kept all the same
     }
 }
 
 void Recordings::begin(const recording::RunInfo& info) {
-  if (unsaved_bytes() >= place_.most_bytes)
+  if (ended_bytes() >= place_.most_bytes)
     throw Error(
-        "the recordings that were not saved take all the room that there is for them: save them first");
+        "the recordings take all the room that there is for them: save them, and remove what is saved");
   recording_.emplace(place_.folder, info);
 }
 
@@ -42,21 +42,21 @@ std::string Recordings::end() {
     recording_->close();
   } catch (...) {
     recording_.reset();
-    if (bytes_of(part_of(file)) > 0) unsaved_.push_back(part_of(file));
+    if (bytes_of(part_of(file)) > 0) ended_.push_back(part_of(file));
     throw;
   }
   recording_.reset();
-  unsaved_.push_back(file);
+  ended_.push_back(file);
   return file;
 }
 
-void Recordings::saved(const std::string& file) {
+void Recordings::remove(const std::string& file) {
   std::error_code gone;
-  if (std::erase(unsaved_, file) > 0) std::filesystem::remove(place_.folder / file, gone);
+  if (std::erase(ended_, file) > 0) std::filesystem::remove(place_.folder / file, gone);
 }
 
 bool Recordings::full() const {
-  return recording_ && unsaved_bytes() + bytes_of(part_of(recording_->file())) >= place_.most_bytes;
+  return recording_ && ended_bytes() + bytes_of(part_of(recording_->file())) >= place_.most_bytes;
 }
 
 std::uint64_t Recordings::bytes_of(const std::string& file) const {
@@ -65,8 +65,8 @@ std::uint64_t Recordings::bytes_of(const std::string& file) const {
   return gone ? 0 : bytes;
 }
 
-std::uint64_t Recordings::unsaved_bytes() const {
-  return std::accumulate(unsaved_.begin(), unsaved_.end(), std::uint64_t{0},
+std::uint64_t Recordings::ended_bytes() const {
+  return std::accumulate(ended_.begin(), ended_.end(), std::uint64_t{0},
                          [this](std::uint64_t sum, const std::string& file) { return sum + bytes_of(file); });
 }
 

@@ -92,7 +92,7 @@ const std::map<std::string_view, json (RobotCalls::*)(Page, const json&)>& Robot
       {"robot/commit", &RobotCalls::commit},
       {"robot/discard", &RobotCalls::discard},
       {"robot/record", &RobotCalls::record},
-      {"robot/recording_saved", &RobotCalls::recording_saved},
+      {"robot/remove_recording", &RobotCalls::remove_recording},
       {"robot/export", &RobotCalls::export_parameters},
       {"robot/judge_wiring", &RobotCalls::judge_wiring},
       {"robot/roll", &RobotCalls::roll}};
@@ -295,8 +295,8 @@ json RobotCalls::record(Page, const json& question) {
   return {{"file", file}};
 }
 
-json RobotCalls::recording_saved(Page, const json& question) {
-  recordings_.saved(text_in(question, "file"));
+json RobotCalls::remove_recording(Page, const json& question) {
+  recordings_.remove(text_in(question, "file"));
   return json::object();
 }
 
@@ -497,7 +497,7 @@ RobotState RobotCalls::state() const {
     state.why_lost = robot_->link().why().what();
   state.other_driver = other_driver_;
   state.recording = recordings_.file();
-  state.unsaved = recordings_.unsaved();
+  state.recordings = recordings_.ended();
   return state;
 }
 

@@ -89,7 +89,7 @@ class RobotCalls {
   Answer commit(Page page, const nlohmann::json& question);
   Answer discard(Page page, const nlohmann::json& question);
   Answer record(Page page, const nlohmann::json& question);
-  Answer recording_saved(Page page, const nlohmann::json& question);
+  Answer remove_recording(Page page, const nlohmann::json& question);
   Answer export_parameters(Page page, const nlohmann::json& question);
   Answer judge_wiring(Page page, const nlohmann::json& question);
   Answer roll(Page page, const nlohmann::json& question);

@@ -40,7 +40,7 @@ json to_json(const RobotState& state) {
              {"why", text_or_null(state.why_lost)},
              {"other_driver", text_or_null(state.other_driver)},
              {"recording", text_or_null(state.recording)},
-             {"unsaved", state.unsaved},
+             {"recordings", state.recordings},
              {"mode", nullptr},
              {"moving", nullptr},
              {"faults", json::array()},

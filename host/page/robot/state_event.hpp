@@ -19,7 +19,7 @@ struct RobotState {
   std::string why_lost;                          // "" while the link is up
   std::string other_driver;                      // another program; "" if none is known
   std::string recording;                         // its file, or ""
-  std::vector<std::string> unsaved;              // recordings that have ended, and that no page has saved
+  std::vector<std::string> recordings;           // that have ended, and that no page has removed
 };
 
 nlohmann::json to_json(const RobotState& state);

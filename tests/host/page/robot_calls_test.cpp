@@ -349,21 +349,21 @@ TEST_F(SimulatedRobot, RecordsAFileThatACalibrationReads) {
   EXPECT_NE(sentence(ask("record", {{"on", false}})), "");
 }
 
-TEST_F(SimulatedRobot, ARecordingIsOfferedUntilAPageHasSavedIt) {
+TEST_F(SimulatedRobot, ARecordingIsOfferedUntilAPageHasItRemoved) {
   const std::string file = result("record", {{"on", true}})["file"];
   calls().leave(kFirst);
   EXPECT_EQ(state_after_ms(1000)["recording"], file) << "it goes on when a page is closed";
-  EXPECT_TRUE(state()["unsaved"].empty());
+  EXPECT_TRUE(state()["recordings"].empty());
   result("close", json::object(), kSecond);
   EXPECT_FALSE(state()["open"].get<bool>());
   EXPECT_EQ(state()["recording"], nullptr);
-  EXPECT_EQ(state()["unsaved"], json({file})) << "the end of the robot ends it, and nobody has it yet";
+  EXPECT_EQ(state()["recordings"], json({file})) << "the end of the robot ends it, and nobody has it yet";
   EXPECT_FALSE(recording::read_run(folder_.path() / file).odometry.empty());
-  result("recording_saved", {{"file", "another.mcap"}});
+  result("remove_recording", {{"file", "another.mcap"}});
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / file));
-  result("recording_saved", {{"file", file}});
+  result("remove_recording", {{"file", file}});
   calls().step({});
-  EXPECT_TRUE(state()["unsaved"].empty());
+  EXPECT_TRUE(state()["recordings"].empty());
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / file)) << "it takes no memory any more";
 }
 
@@ -377,13 +377,13 @@ class KeptRecordings : public Pages {
   std::vector<std::size_t> kept_;  // samples of each recording
 };
 
-TEST_F(KeptRecordings, WhateverNoPageHasSavedIsKeptAtTheEnd) {
+TEST_F(KeptRecordings, WhateverNoPageHasRemovedIsKeptAtTheEnd) {
   result("open", {{"simulated", json::object()}});
-  for (const bool saves : {false, true}) {
+  for (const bool removed : {false, true}) {
     result("record", {{"on", true}});
     run_ms(1000);
     const json ended = result("record", {{"on", false}});
-    if (saves) result("recording_saved", ended);
+    if (removed) result("remove_recording", ended);
   }
   result("record", {{"on", true}});
   run_ms(2000);
@@ -394,20 +394,20 @@ TEST_F(KeptRecordings, WhateverNoPageHasSavedIsKeptAtTheEnd) {
   EXPECT_NEAR(static_cast<double>(kept_[1]), 100, 10);
 }
 
-TEST_F(Pages, ARecordingEndsWhenThereIsNoMoreRoomAndCanBeSaved) {
+TEST_F(Pages, ARecordingEndsWhenThereIsNoMoreRoomAndIsOffered) {
   recordings_.most_bytes = 100'000;
   result("open", {{"simulated", json::object()}});
   const std::string file = result("record", {{"on", true}})["file"];
   for (int s = 0; s < 120 && state_after_ms(1000)["recording"] == file;) ++s;
-  EXPECT_EQ(state()["unsaved"], json({file}));
+  EXPECT_EQ(state()["recordings"], json({file}));
   EXPECT_THAT(events("notice").back()["sentence"].get<std::string>(), HasSubstr("all the room"));
   // A chunk of some seconds is written at a time, and the file's index at its end.
   const auto bytes = std::filesystem::file_size(folder_.path() / file);
   EXPECT_GE(bytes, recordings_.most_bytes);
   EXPECT_LT(bytes, 2 * recordings_.most_bytes);
   EXPECT_GT(recording::read_run(folder_.path() / file).odometry.size(), 100U);
-  EXPECT_THAT(sentence(ask("record", {{"on", true}})), HasSubstr("save them first"));
-  result("recording_saved", {{"file", file}});
+  EXPECT_THAT(sentence(ask("record", {{"on", true}})), HasSubstr("save them, and remove what is saved"));
+  result("remove_recording", {{"file", file}});
   result("record", {{"on", true}});
 }
 

@@ -39,6 +39,9 @@ interface Answered {
   error?: { sentence: string; remedies: string[] };
 }
 
+/** Tells the person something that belongs to no question. */
+const notice = (sentence: string) => post({ id: 0, kind: "event", event: { event: "notice", sentence } });
+
 /** What a robot does belongs to no question, whichever is being answered when it does it. */
 function ask(module: Module, question_id: number, call: string, question: unknown): Answered {
   const id = call.startsWith("robot/") ? 0 : question_id;
@@ -47,16 +50,17 @@ function ask(module: Module, question_id: number, call: string, question: unknow
 
 let kept: KeptRecording[] = [];
 
-/** What is recorded is kept until somebody has it. */
+/** What is recorded is kept until a person removes it. */
 async function keep_recordings(module: Module, call: string, question: unknown, result: unknown) {
   if (call === "robot/record" && (question as { on?: boolean }).on) {
     const recording = await KeptRecording.of(module.FS, `${kFolder}/${(result as { file: string }).file}`);
     if (recording) kept.push(recording);
-  } else if (call === "robot/recording_saved") {
+    else notice("This browser keeps nothing for this page, as in a private window: what is recorded is lost with the page unless you save it before.");
+  } else if (call === "robot/remove_recording") {
     const { file } = question as { file: string };
-    const saved = kept.filter((each) => each.name === file);
+    const removed = kept.filter((each) => each.name === file);
     kept = kept.filter((each) => each.name !== file);
-    for (const each of saved) await each.drop();
+    for (const each of removed) await each.drop();
   }
   for (const each of kept) each.copy();
 }

@@ -224,6 +224,39 @@ test("what was recorded is saved as MCAP", async () => {
   });
 });
 
+test("a recording that the browser got is offered until a person removes it", async () => {
+  await on_armed_robot(async (page) => {
+    await button(page, "Record").click();
+    await strip(page).getByText("recording").waitFor();
+    const saved = async (from, name) => (await Promise.all([page.waitForEvent("download"), from.getByRole("button", { name }).click()]))[0];
+    const first = await saved(page, /Save as MCAP/);
+    // Whoever leaves the dialog without saving finds it here.
+    const recordings = panel(page, "Recordings");
+    await recordings.getByText("given to the browser").waitFor();
+    const again = await saved(recordings, /^Save again/);
+    assert.ok(readFileSync(await again.path()).equals(readFileSync(await first.path())));
+    await recordings.getByRole("button", { name: /^Remove/ }).click();
+    await recordings.waitFor({ state: "detached" });
+  });
+});
+
+test("a browser that keeps nothing for the page says so when a recording begins", async () => {
+  const without_storage = async (page) => {
+    await page.route("**/wasm_worker*.js", async (route) => {
+      const response = await route.fetch();
+      const refuses = "navigator.storage.getDirectory = () => Promise.reject(new DOMException('', 'SecurityError'));";
+      await route.fulfill({ response, body: refuses + (await response.text()) });
+    });
+    await page.reload();
+  };
+  await in_browser("#live", {}, async (page) => {
+    await without_storage(page);
+    await simulate(page);
+    await button(page, "Record").click();
+    await page.getByText("keeps nothing for this page").waitFor();
+  });
+});
+
 test("what was recorded is not lost with the page", async () => {
   await on_armed_robot(async (page) => {
     const folder = mkdtempSync(path.join(os.tmpdir(), "page-recording-"));
@@ -251,10 +284,11 @@ test("what was recorded is not lost with the page", async () => {
       execFileSync(astrolabe, ["export", saved, "--damaged", "--csv", path.join(folder, "csv")]);
       const odometry = readFileSync(path.join(folder, "csv", "odometry.csv"), "utf8").trim().split("\n");
       assert.ok(odometry.length > 50, `${odometry.length} lines`);
+      await recordings.getByRole("button", { name: /^Remove/ }).click();
       await recordings.waitFor({ state: "detached" });
       await page.reload();
       await button(page, "Simulate a robot").waitFor();
-      assert.equal(await recordings.count(), 0, "what is saved is not offered again");
+      assert.equal(await recordings.count(), 0, "what is removed is not offered again");
     } finally {
       rmSync(folder, { recursive: true });
     }
@@ -270,6 +304,7 @@ test("a recording that ends with its robot is offered, saved or discarded", asyn
       await button(page, "Leave this robot").click();
       await recordings.waitFor();
       await recordings.getByRole("button", { name: what }).click();
+      if (String(what).includes("Save")) await recordings.getByRole("button", { name: /^Remove/ }).click();
       await recordings.waitFor({ state: "detached" });
       await simulate(page);
     }

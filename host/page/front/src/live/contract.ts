@@ -60,8 +60,8 @@ export interface RobotState extends Event_ {
   other_driver: string | null;
   /** The file that is being recorded. */
   recording: string | null;
-  /** Recordings that have ended, and that nobody has saved. */
-  unsaved: string[];
+  /** Recordings that have ended, and that nobody has removed. */
+  recordings: string[];
 }
 
 export interface PathEvent extends Event_ {

@@ -8,7 +8,7 @@ const lock_of = (name: string) => `${kFolder}/${name}`;
 
 const folder = async () => (await navigator.storage.getDirectory()).getDirectoryHandle(kFolder, { create: true });
 
-/** Recordings that no page has saved, and whose page has gone. None where the browser keeps nothing, as in private windows. */
+/** Recordings that nobody has removed, and whose page has gone. None where the browser keeps nothing, as in private windows. */
 export async function left_recordings(): Promise<string[]> {
   try {
     const { held = [] } = await navigator.locks.query();
@@ -69,7 +69,7 @@ export class KeptRecording {
     }
   }
 
-  /** A person has the recording. */
+  /** A person has the recording, or does not want it. */
   async drop() {
     this.handle.close();
     await drop_recording(this.name);

@@ -19,8 +19,10 @@ export class Robot {
   opened: Opened | null = null;
   parameters: Parameter[] = [];
   state: RobotState | null = null;
-  /** Recordings that have ended and that nobody has saved, also of a robot that is closed. */
-  unsaved: string[] = [];
+  /** Recordings that have ended and that nobody has removed, also of a robot that is closed. */
+  recordings: string[] = [];
+  /** Those of them, or of an earlier page, that the browser got: it does not say whether it has saved them. */
+  given: ReadonlySet<string> = new Set();
   /** Why nothing is heard of an open robot; "" if it is heard. */
   lost = "";
   /** The last command that could not be carried out, or a remark of a drive. */
@@ -140,14 +142,27 @@ export class Robot {
     this.changed();
   }
 
-  /** Hands a recording to the person; whoever wrote it need not keep it any longer. */
+  /** It stays where it is, because a person may leave the browser's dialog without saving. */
   async save_recording(file: string) {
-    save(file, await this.backend.file(file));
-    await this.drop_recording(file);
+    this.give(file, await this.backend.file(file));
   }
 
-  async drop_recording(file: string) {
-    await this.backend.ask("robot/recording_saved", { file });
+  give(name: string, content: Blob) {
+    save(name, content);
+    this.given = new Set([...this.given, name]);
+    this.changed();
+  }
+
+  /** Another recording may get its name. */
+  was_removed(name: string) {
+    this.given = new Set([...this.given].filter((each) => each !== name));
+    this.changed();
+  }
+
+  /** A person has it, or does not want it. */
+  async remove_recording(file: string) {
+    await this.backend.ask("robot/remove_recording", { file });
+    this.was_removed(file);
   }
 
   async read_parameters() {
@@ -194,7 +209,7 @@ export class Robot {
       if (event.up) void this.come_back();
       return;
     }
-    if (event.event === "state") this.take_unsaved((event as RobotState).unsaved);
+    if (event.event === "state") this.take_recordings((event as RobotState).recordings);
     if (!this.opened) {
       // Another page has opened it.
       if (event.event === "state" && event.open && !this.opening) void this.open_present();
@@ -208,9 +223,9 @@ export class Robot {
     else if (event.event === "state") this.take_state(event as RobotState);
   }
 
-  private take_unsaved(unsaved: string[]) {
-    if (unsaved.join("/") === this.unsaved.join("/")) return;
-    this.unsaved = unsaved;
+  private take_recordings(recordings: string[]) {
+    if (recordings.join("/") === this.recordings.join("/")) return;
+    this.recordings = recordings;
     this.changed();
   }
 
