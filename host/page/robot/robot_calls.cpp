@@ -1,7 +1,6 @@
 #include "host/page/robot/robot_calls.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -15,7 +14,6 @@
 #include "host/page/calls/question.hpp"
 #include "host/page/calls/simulated_robot.hpp"
 #include "host/page/robot/robot_call_problem.hpp"
-#include "host/recording/telemetry_sample.hpp"
 #include "host/robot/client/handshake.hpp"
 #include "host/robot/client/restore.hpp"
 #include "host/robot/motion/other_program.hpp"
@@ -28,11 +26,6 @@ using protocol::Telemetry;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::uint16_t kUsualPeriod_ms = 20;
-/// What pose, state and path events are made of.
-constexpr std::uint32_t kAlways = Telemetry::kPose | Telemetry::kTwist | Telemetry::kCounts |
-                                  Telemetry::kWheelSpeed | Telemetry::kBattery | Telemetry::kState |
-                                  Telemetry::kPath;
 /// The longest wait of the link before what is due is looked at again.
 constexpr microseconds kSlice = milliseconds(1), kSliceUnarmed = milliseconds(5);
 
@@ -48,18 +41,14 @@ json signals_json() {
   return list;
 }
 
-json pose_json(const Pose2& pose) {
-  return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.theta_rad}};
-}
-
 }  // namespace
 
 RobotCalls::RobotCalls(RobotPorts ports, RecordingPlace recordings, Tell tell, Meanwhile meanwhile)
     : ports_(std::move(ports)),
       folder_(recordings.folder),
       tell_(std::move(tell)),
-      meanwhile_(std::move(meanwhile)),
-      recordings_(std::move(recordings)) {}
+      telemetry_(std::move(recordings)),
+      meanwhile_(std::move(meanwhile)) {}
 
 RobotCalls::~RobotCalls() {
   try {
@@ -170,7 +159,7 @@ json RobotCalls::open(Page page, const json& question) {
   if (!robot_) {
     robot_ = port.empty() ? OpenedRobot::simulated(simulated_robot_in(*simulated))
                           : OpenedRobot::at_port(ports_, port);
-    ask_for_telemetry();
+    telemetry_.ask(robot_.get());
   }
   return description(page);
 }
@@ -195,7 +184,7 @@ json RobotCalls::close(Page page, const json&) {
   driving_.require_free_for(page);
   if (live::RobotSession* found = robot_->session()) driving_.finish(*found);
   closing_ = true;
-  if (recordings_.under_way()) record(page, {{"on", false}});
+  if (telemetry_.recording()) telemetry_.end_recording(robot_.get());
   finish_close();
   return json::object();
 }
@@ -215,35 +204,13 @@ void RobotCalls::forget_robot() {
   driving_.release("the robot was closed");
   report();
   robot_.reset();
-  newest_.reset();
-  watches_.clear();
+  telemetry_.forget_robot();
   parameters_.clear();
   measurements_ = {};
   other_driver_.clear();
 }
 
-json RobotCalls::watch(Page page, const json& question) {
-  std::vector<const Signal*> wanted;
-  for (const std::string& name : texts_in(question, "signals")) wanted.push_back(&signal_named(name));
-  const double rate_hz = number_in(question, "rate_hz", 1, 1000).value_or(50);
-  const auto period_ms = static_cast<std::uint16_t>(std::lround(1000 / rate_hz));
-  if (live::RobotSession* found = robot().session()) take_samples(*found);  // of the time before
-  watches_.erase(page);
-  if (!wanted.empty()) watches_.emplace(page, SignalWatch(std::move(wanted), period_ms));
-  ask_for_telemetry();
-  return {{"rate_hz", 1000.0 / period_ms}};
-}
-
-void RobotCalls::ask_for_telemetry() {
-  protocol::SetTelemetry wanted{kUsualPeriod_ms, kAlways};
-  for (const auto& [page, each] : watches_) {
-    wanted.period_ms = std::min(wanted.period_ms, each.period_ms());
-    wanted.fields |= each.fields();
-  }
-  if (recordings_.under_way()) wanted.fields = Telemetry::kAll;
-  stream_ms_ = wanted.period_ms;
-  if (robot_) robot_->link().ask_for_telemetry(wanted);
-}
+json RobotCalls::watch(Page page, const json& question) { return telemetry_.watch(robot(), page, question); }
 
 json RobotCalls::arm(Page page, const json&) {
   require_no_close();
@@ -272,45 +239,17 @@ json RobotCalls::commit(Page page, const json& question) {
 }
 json RobotCalls::discard(Page page, const json&) { return parameters_[page].discard(); }
 
-void RobotCalls::require_no_recording() const {
-  if (recordings_.under_way())
-    throw Error("a recording is under way: end it first", {}, {recordings_.file()});
-}
-
 json RobotCalls::record(Page, const json& question) {
-  if (flag_in(question, "on")) {
-    require_no_recording();
-    require_no_close();
-    live::RobotSession& found = known_session();
-    recording::RunInfo info = experiment::info_of(found.client().robot(), found.numbers());
-    robot_->take_truth();  // that of before is not recorded
-    if (robot_->is_simulated()) info.truth_source = "sim", info.truth_clock = "robot";
-    recordings_.begin(info);
-    ask_for_telemetry();
-    return {{"file", recordings_.file()}};
-  }
-  if (!recordings_.under_way()) throw Error("no recording is under way");
-  const std::string file = recordings_.end();
-  ask_for_telemetry();
-  return {{"file", file}};
+  if (!flag_in(question, "on")) return telemetry_.end_recording(robot_.get());
+  telemetry_.require_no_recording();
+  require_no_close();
+  known_session();
+  return telemetry_.begin_recording(*robot_);
 }
 
 json RobotCalls::remove_recording(Page, const json& question) {
-  recordings_.remove(text_in(question, "file"));
+  telemetry_.remove_recording(text_in(question, "file"));
   return json::object();
-}
-
-/// The robot drives on, whatever becomes of its recording.
-void RobotCalls::end_full_recording() {
-  std::string sentence =
-      "the recording has taken all the room that there is for recordings, and has ended: save it";
-  try {
-    recordings_.end();
-  } catch (const Error& error) {
-    sentence = error.what();
-  }
-  ask_for_telemetry();
-  tell_(kAllPages, {{"event", "notice"}, {"sentence", sentence}});
 }
 
 json RobotCalls::export_parameters(Page, const json&) {
@@ -344,7 +283,7 @@ json RobotCalls::roll(Page, const json& question) {
 json RobotCalls::measure(Page page, Measure what, const json& question) {
   require_no_close();
   driving_.require_free_for(page);
-  require_no_recording();
+  telemetry_.require_no_recording();
   live::RobotSession& found = known_session();
   robot::DriveHooks drive;
   drive.interrupted = [this] { return measurement_has_to_end(); };
@@ -357,7 +296,7 @@ json RobotCalls::measure(Page page, Measure what, const json& question) {
     while (found.take_sample()) {
     }
     found.take_fault();
-    ask_for_telemetry();
+    telemetry_.ask(robot_.get());
     found.parameters().refresh();
     found.note_parameters();
   };
@@ -421,8 +360,8 @@ const Telemetry& RobotCalls::fresh_telemetry() {
   do {
     if (found.client().now() >= end) throw Error("the robot sends no telemetry: ask again");
     pump(found, milliseconds(20));
-  } while (!newest_ || newest_->device_time_us < asked_us);
-  return *newest_;
+  } while (!telemetry_.newest() || telemetry_.newest()->device_time_us < asked_us);
+  return *telemetry_.newest();
 }
 
 void RobotCalls::step(microseconds most) {
@@ -441,7 +380,7 @@ void RobotCalls::step(microseconds most) {
 }
 
 void RobotCalls::work(microseconds most) {
-  if (robot_->seek()) newest_.reset();
+  if (robot_->seek()) telemetry_.forget_newest();
   live::RobotSession* found = robot_->session();
   if (found == nullptr) return;
   if (!found->knows_parameters()) found->read_parameters(milliseconds(5));
@@ -449,24 +388,15 @@ void RobotCalls::work(microseconds most) {
   pump(*found, most);
   found->keep_telemetry();
   look_for_other_driver(*found);
-  if (recordings_.full()) end_full_recording();
+  if (const auto full = telemetry_.end_full_recording(*robot_))
+    tell_(kAllPages, {{"event", "notice"}, {"sentence", *full}});
 }
 
 void RobotCalls::pump(live::RobotSession& session, microseconds most) {
   session.pump(most);
   if (session.restarted()) throw robot::LinkLost("the robot has restarted");
   if (session.take_fault()) driving_.release("the robot stopped by itself");
-  take_samples(session);
-}
-
-void RobotCalls::take_samples(live::RobotSession& session) {
-  while (const auto sample = session.take_sample()) take(*sample);
-}
-
-void RobotCalls::take(const Telemetry& telemetry) {
-  newest_ = telemetry;
-  if (recordings_.under_way()) recordings_.add(telemetry, robot_->take_truth());
-  for (auto& [page, each] : watches_) each.take(telemetry, stream_ms_);
+  telemetry_.take_from(*robot_, session);
 }
 
 /// Another program at the same port may drive, of which the robot itself says nothing.
@@ -481,7 +411,7 @@ void RobotCalls::look_for_other_driver(live::RobotSession& session) {
 void RobotCalls::lose(const Error& why) {
   driving_.release("the link to the robot was lost");
   if (robot_) robot_->lose(why);
-  newest_.reset();
+  telemetry_.forget_newest();
   measurements_ = {};
   other_driver_.clear();
 }
@@ -492,34 +422,24 @@ RobotState RobotCalls::state() const {
   state.measuring = measuring_.has_value();
   state.armed = driving_.armed() || state.measuring;
   state.driver = measuring_.value_or(driving_.driver());
-  state.telemetry = newest_;
-  if (robot_ && robot_->link().losses() > 0 && newest_ == std::nullopt)
-    state.why_lost = robot_->link().why().what();
+  state.telemetry = telemetry_.newest();
+  if (robot_ && robot_->link().losses() > 0 && !state.telemetry) state.why_lost = robot_->link().why().what();
   state.other_driver = other_driver_;
-  state.recording = recordings_.file();
-  state.recordings = recordings_.ended();
+  state.recording = telemetry_.recordings().file();
+  state.recordings = telemetry_.recordings().ended();
   return state;
 }
 
 void RobotCalls::report() {
   const microseconds now = robot_ ? robot_->now() : ports_.clock.steady();
   if (const auto event = state_report_.take(state(), now)) tell_(kAllPages, *event);
-  if (const auto event = driving_.path_event(newest_.value_or(Telemetry{}), now)) tell_(kAllPages, *event);
-  if (!robot_ || !newest_ || measuring_) return;
-  for (auto& [page, each] : watches_) {
-    const auto samples = each.batch(now);
-    if (!samples) continue;
-    tell_(page, *samples);
-    const recording::OdometrySample at = recording::to_sample(*newest_);
-    json pose = pose_json({at.x_m, at.y_m, at.theta_rad});
-    const auto truth = robot_->truth();
-    pose.update({{"event", "pose"}, {"truth", truth ? pose_json(*truth) : json(nullptr)}});
-    tell_(page, pose);
-  }
+  const Telemetry newest = telemetry_.newest().value_or(Telemetry{});
+  if (const auto event = driving_.path_event(newest, now)) tell_(kAllPages, *event);
+  if (robot_ && telemetry_.newest() && !measuring_) telemetry_.report(*robot_, tell_);
 }
 
 void RobotCalls::leave(Page page) {
-  watches_.erase(page);
+  telemetry_.leave(page);
   parameters_.erase(page);
   if (!robot_) return;
   if (measuring_) {
@@ -528,7 +448,7 @@ void RobotCalls::leave(Page page) {
   }
   try {
     if (live::RobotSession* found = robot_->session()) driving_.leave(*found, page);
-    ask_for_telemetry();  // last: a stop does not wait for it
+    telemetry_.ask(robot_.get());  // last: a stop does not wait for it
   } catch (const Error& error) {
     lose(error);
   }

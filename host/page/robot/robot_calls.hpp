@@ -13,8 +13,7 @@
 #include "host/page/robot/measurements.hpp"
 #include "host/page/robot/opened_robot.hpp"
 #include "host/page/robot/parameter_calls.hpp"
-#include "host/page/robot/recordings.hpp"
-#include "host/page/robot/signal_watch.hpp"
+#include "host/page/robot/robot_telemetry.hpp"
 #include "host/page/robot/state_event.hpp"
 
 namespace astro::page {
@@ -105,17 +104,12 @@ class RobotCalls {
   live::RobotSession& known_session();
   live::RobotSession& current_session();
   void require_no_close() const;
-  void require_no_recording() const;
-  void end_full_recording();
   void finish_close();
   void forget_robot();
   Answer description(Page page);
   void work(microseconds most);
   void pump(live::RobotSession& session, microseconds most);
-  void take_samples(live::RobotSession& session);
-  void take(const protocol::Telemetry& telemetry);
   void lose(const Error& why);
-  void ask_for_telemetry();
   void look_for_other_driver(live::RobotSession& session);
   void report();
   RobotState state() const;
@@ -126,17 +120,14 @@ class RobotCalls {
   std::unique_ptr<OpenedRobot> robot_;
   DrivingCalls driving_;                       // behind robot_, whose session it may use
   std::map<Page, ParameterCalls> parameters_;  // a page puts in force what it has staged, and nobody else has
-  std::map<Page, SignalWatch> watches_;
+  RobotTelemetry telemetry_;
   Meanwhile meanwhile_;
   Measurements measurements_;      // of this robot, until it is lost: one that restarts counts anew
   std::optional<Page> measuring_;  // for this page, at this moment
   bool stop_measurement_ = false;
-  microseconds report_at_{};     // of a measurement
-  bool closing_ = false;         // the robot is brought to rest first
-  std::uint16_t stream_ms_ = 0;  // the period of the telemetry that was asked for
-  std::optional<protocol::Telemetry> newest_;
-  Recordings recordings_;
-  microseconds waited_{};  // of the question that is being answered
+  microseconds report_at_{};  // of a measurement
+  bool closing_ = false;      // the robot is brought to rest first
+  microseconds waited_{};     // of the question that is being answered
   std::string other_driver_;
   microseconds look_at_{};  // for another program that drives
   StateReport state_report_;
