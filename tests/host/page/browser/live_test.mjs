@@ -269,13 +269,16 @@ test("what was recorded is not lost with the page", async () => {
       await button(other, "Simulate a robot").waitFor();
       assert.equal(await panel(other, "Recordings").count(), 0, "no other page offers what is being recorded");
       await other.close();
-      // The page copies once a second what the module has written: definitions at first, then what was driven, once in some seconds.
-      await page.waitForFunction(async () => {
-        const folder = await (await navigator.storage.getDirectory()).getDirectoryHandle("recordings");
-        window.sizes ??= new Set();
-        for await (const file of folder.values()) window.sizes.add((await file.getFile()).size);
-        return window.sizes.size >= 4;
-      }, null, { timeout: 60_000 });
+      // The page copies once a second what the module has written: 2 KB of definitions at first, then 70 KB of what was driven, once in
+      // some seconds.
+      const copied_bytes = () =>
+        page.evaluate(async () => {
+          const folder = await (await navigator.storage.getDirectory()).getDirectoryHandle("recordings");
+          let bytes = 0;
+          for await (const file of folder.values()) bytes += (await file.getFile()).size;
+          return bytes;
+        });
+      while ((await copied_bytes()) < 20_000) await page.waitForTimeout(200);
       await page.reload();
       await recordings.waitFor();
       const [download] = await Promise.all([page.waitForEvent("download"), recordings.getByRole("button", { name: /^Save/ }).click()]);
