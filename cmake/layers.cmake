@@ -83,7 +83,7 @@ set(ASTRO_LAYERS
   "host/wall                    : common host/base host/calibration/gyro host/calibration/judgement host/calibration/motion host/experiment/analysis host/experiment/files host/recording host/robot/client host/robot/motion host/robot/parameters"
   "host/page/calls              : host/base host/calibration/judgement host/experiment/analysis host/experiment/drive host/experiment/files host/formats/files host/formats/tables host/import/drives host/import/scans host/import/wheels host/lidar host/recording host/report host/robot/client host/simulation/robot host/truth/files host/truth/floor"
   "host/page/robot              : common host/base host/experiment/analysis host/experiment/drive host/experiment/files host/live/driver host/motor/bench host/motor/model host/page/calls host/recording host/robot/client host/robot/motion host/robot/parameters host/robot/sharing host/simulation/robot"
-  "host/page/wasm               : host/base host/page/calls host/page/robot"
+  "host/page/wasm               : host/base host/page/calls host/page/robot host/robot/client host/robot/port"
   "tests                        : common hal firmware host"
 )
 
@@ -122,7 +122,7 @@ set(ASTRO_OUTSIDE
   "asm/ sys/ fcntl.h poll.h signal.h spawn.h termios.h time.h unistd.h : host/base host/commands host/console host/programs host/recording host/robot/port host/robot/sharing host/simulation/server host/truth/live"
   "netinet/                 : host/base"
   "csignal                  : host/console"
-  "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/programs host/python host/recording host/robot host/simulation host/truth host/wall"
+  "chrono ctime             : host/base host/commands host/console host/emulator/robot host/experiment host/film host/formats host/import host/live host/page/wasm host/programs host/python host/recording host/robot host/simulation host/truth host/wall"
   "atomic condition_variable future mutex shared_mutex stop_token thread : host/base host/commands host/console host/live/dashboard host/live/dds host/live/foxglove host/live/web host/python/native host/robot/client host/robot/port host/robot/sharing host/simulation/server host/truth/live"
 
   # Files, and what is printed.

@@ -9,10 +9,13 @@
 #include "host/page/calls/calls.hpp"
 #include "host/page/robot/real_time.hpp"
 #include "host/page/robot/robot_calls.hpp"
+#include "host/page/wasm/page_port.hpp"
+#include "host/robot/client/restore.hpp"
 
-/// The module's whole surface: answer(call, question, emit), all three texts of JSON but the last, a function that gets one.
-/// Files are those of Emscripten's file system in memory below kFolder. Events of the robot come with the call during which they
-/// happen, so the page asks robot/step {"now_s": seconds of its clock} about every 20 ms while a robot is open.
+/// The module's whole surface: answer(call, question, emit, waited_ms), where call, question and what is answered are texts of JSON, and
+/// emit is a function that gets one; the question was asked waited_ms ago. Files are those of Emscripten's file system in memory
+/// below kFolder. Events of the robot come with the call during which they happen, so the page asks robot/step {"now_s": seconds of its
+/// clock} about every 20 ms while a robot is open. A page that gives the module an object `serial` (page_port.hpp) has ports.
 namespace {
 
 using astro::microseconds;
@@ -20,14 +23,24 @@ using nlohmann::json;
 
 constexpr const char* kFolder = "/files-of-the-page";
 constexpr astro::page::Page kThisPage = 1;
+/// How long a step lets a robot at a port work, of the 20 ms between two of them.
+constexpr microseconds kStep = std::chrono::milliseconds(15);
+
+astro::page::RobotPorts ports_of_the_page() {
+  astro::page::RobotPorts ports;
+  ports.open = [](const std::string& name) { return std::make_unique<astro::page::PagePort>(name); };
+  return ports;
+}
+
+microseconds in_microseconds(double time_s) { return microseconds(std::llround(1e6 * time_s)); }
 
 class RobotOfThePage {
  public:
-  json answer(const std::string& call, const json& question, const astro::page::Emit& emit) {
-    emit_ = &emit;
-    const json told = call == "robot/step" ? step(question) : calls_.answer(kThisPage, call, question);
-    emit_ = nullptr;
-    return told;
+  /// Also from within a measurement, which takes the questions that come meanwhile.
+  json answer(const std::string& call, const json& question, const astro::page::Emit& emit,
+              microseconds waited) {
+    const astro::robot::Restore emitting(emit_, &emit);
+    return call == "robot/step" ? step(question) : calls_.answer(kThisPage, call, question, waited);
   }
 
  private:
@@ -37,23 +50,30 @@ class RobotOfThePage {
     const auto now_s = question["now_s"].get<double>();
     const auto robot = calls_.simulated_now();
     if (!robot) pace_ = {};
-    calls_.step(robot ? pace_.due(microseconds(std::llround(1e6 * now_s)), *robot) : microseconds::zero());
+    calls_.step(robot ? pace_.due(in_microseconds(now_s), *robot) : kStep);
     return {{"result", json::object()}};
   }
 
   const astro::page::Emit* emit_ = nullptr;  // of the call under way
-  astro::page::RobotCalls calls_{{}, {.folder = kFolder}, [this](astro::page::Page, const json& event) {
+  astro::page::RobotCalls calls_{ports_of_the_page(),
+                                 {.folder = kFolder},
+                                 [this](astro::page::Page, const json& event) {
                                    if (emit_ != nullptr) (*emit_)(event);
+                                 },
+                                 [] {
+                                   astro::page::PagePort::take_questions();
+                                   return false;
                                  }};
   astro::page::RealTime pace_;
 };
 
-std::string answer(const std::string& call, const std::string& question, emscripten::val emit) {
+std::string answer(const std::string& call, const std::string& question, emscripten::val emit,
+                   double waited_ms) {
   static RobotOfThePage robot;
   const auto parsed = json::parse(question, nullptr, false);
   const auto told = [&emit](const json& event) { emit(astro::page::json_text(event)); };
   return astro::page::json_text(astro::page::RobotCalls::is_named(call)
-                                    ? robot.answer(call, parsed, told)
+                                    ? robot.answer(call, parsed, told, in_microseconds(1e-3 * waited_ms))
                                     : astro::page::answer(call, parsed, kFolder, told));
 }
 

@@ -20,8 +20,8 @@ export function chosen_backends(): { calls: Backend; robot: Backend } {
     const program = new WebSocketBackend(token);
     return { calls: program, robot: program };
   }
-  const calls = new WasmBackend();
+  const calls = new WasmBackend(false);
   calls.start();
   // In a worker of its own, so that a robot is stopped at once while another question is computed.
-  return { calls, robot: new WasmBackend() };
+  return { calls, robot: new WasmBackend(true) };
 }

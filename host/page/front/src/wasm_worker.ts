@@ -1,10 +1,14 @@
 import { sentence_of } from "./backend";
 import { KeptRecording, type ModuleFiles } from "./live/kept_recordings";
+import { common_clock_ms, type RobotQuestion, take_questions } from "./serial/question_queue";
+import { SerialLine } from "./serial/serial_line";
+import { SharedBytes } from "./serial/shared_bytes";
 import type { FromWorker, ToWorker } from "./wasm_messages";
 
 /** The module's surface (host/page/wasm/main.cpp). */
 interface Module {
-  answer(call: string, question: string, emit: (event: string) => void): string;
+  answer(call: string, question: string, emit: (event: string) => void, waited_ms: number): string;
+  serial?: SerialLine;
   FS: ModuleFiles & { mkdir(path: string): void; readFile(path: string): Uint8Array<ArrayBuffer>; writeFile(path: string, bytes: Uint8Array): void };
 }
 
@@ -43,9 +47,24 @@ interface Answered {
 const notice = (sentence: string) => post({ id: 0, kind: "event", event: { event: "notice", sentence } });
 
 /** What a robot does belongs to no question, whichever is being answered when it does it. */
-function ask(module: Module, question_id: number, call: string, question: unknown): Answered {
+function ask(module: Module, question_id: number, call: string, question: unknown, waited_ms = 0): Answered {
   const id = call.startsWith("robot/") ? 0 : question_id;
-  return JSON.parse(module.answer(call, JSON.stringify(question), (event) => post({ id, kind: "event", event: JSON.parse(event) }))) as Answered;
+  return JSON.parse(module.answer(call, JSON.stringify(question), (event) => post({ id, kind: "event", event: JSON.parse(event) }), waited_ms)) as Answered;
+}
+
+function answer(module: Module, { id, call, question, asked_ms }: RobotQuestion) {
+  const { result, error } = ask(module, id, call, question, common_clock_ms() - asked_ms);
+  if (error) post({ id, kind: "refusal", ...error });
+  else post({ id, kind: "answer", answer: result });
+  if (call === "robot/open") let_time_pass(module);
+  if (!error) keep_recordings(module, call, question, result).catch((why: unknown) => notice(sentence_of(why)));
+}
+
+/** A question that is asked while another is answered is answered from within that. */
+function share(module: Module, line: SharedBytes, questions: SharedBytes) {
+  module.serial = new SerialLine(line, (message) => post({ id: 0, ...message }), () => {
+    for (const each of take_questions(questions)) answer(module, each);
+  });
 }
 
 let kept: KeptRecording[] = [];
@@ -104,11 +123,9 @@ onmessage = async ({ data }: MessageEvent<ToWorker>) => {
       post({ id, kind: "answer", answer: null });
       return;
     }
-    const { result, error } = ask(module, id, data.call, data.question);
-    if (error) post({ id, kind: "refusal", ...error });
-    else post({ id, kind: "answer", answer: result });
-    if (data.call === "robot/open") let_time_pass(module);
-    if (!error) await keep_recordings(module, data.call, data.question, result);
+    if (data.kind === "share") share(module, new SharedBytes(data.line), new SharedBytes(data.questions));
+    else if (data.kind === "look") module.serial!.meanwhile();
+    else answer(module, data);
   } catch (error) {
     post({ id, kind: "refusal", sentence: sentence_of(error), remedies: [] });
   }

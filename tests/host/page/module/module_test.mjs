@@ -27,7 +27,7 @@ async function new_module() {
 
 async function answers_of_module() {
   const module = await new_module();
-  return questions.map(({ call, question }) => JSON.parse(module.answer(call, JSON.stringify(question), () => {})));
+  return questions.map(({ call, question }) => JSON.parse(module.answer(call, JSON.stringify(question), () => {}, 0)));
 }
 
 function answers_of_program() {
@@ -68,7 +68,7 @@ test("a robot in the module drives while the page repeats its velocity, and rest
       if (event.event === "state") state = event;
       if (event.event === "samples") samples += event.t_s.length;
     };
-    const answer = JSON.parse(module.answer(`robot/${call}`, JSON.stringify(question), told));
+    const answer = JSON.parse(module.answer(`robot/${call}`, JSON.stringify(question), told, 0));
     assert.ok(answer.result, `${call}: ${JSON.stringify(answer.error)}`);
     return answer.result;
   };

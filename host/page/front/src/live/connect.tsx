@@ -1,6 +1,8 @@
 import { useEffect, useState } from "preact/hooks";
 import { sentence_of } from "../backend";
 import { kChoices, kUsual, question_of, Slider } from "../choices";
+import { load_isolated } from "../serial/isolation";
+import { choose_port, port_names, web_serial } from "../serial/serial_ports";
 import type { Robot } from "./robot";
 
 interface Port {
@@ -8,26 +10,66 @@ interface Port {
   what: string;
 }
 
-export function Ports({ robot, busy, open }: { robot: Robot; busy: boolean; open: (question: object) => void }) {
-  const [ports, set_ports] = useState<Port[] | null>(null);
+interface Props {
+  robot: Robot;
+  busy: boolean;
+  open: (question: { port: string }) => void;
+}
+
+/** A robot at a cable: at a port of the program that serves this page, or of the browser. */
+export function RealRobot(props: Props) {
+  const { robot } = props;
   const [problem, set_problem] = useState("");
-  const look = () => {
+  const attempt = (what: () => Promise<unknown>) => {
     set_problem("");
-    robot.backend.ask<{ ports: Port[] }>("robot/ports", {}).then((answer) => set_ports(answer.ports), (error) => set_problem(sentence_of(error)));
+    // A person who chooses no port knows it.
+    what().catch((error: unknown) => (error as Error).name !== "NotFoundError" && set_problem(sentence_of(error)));
   };
-  useEffect(look, []);
+  const content = () => {
+    if (robot.backend.has_ports)
+      return <Ports {...props} attempt={attempt} none="There is no serial port with a robot. Plug in its cable and switch it on."
+        list={async () => (await robot.backend.ask<{ ports: Port[] }>("robot/ports", {})).ports} />;
+    if (!web_serial())
+      return <p>This browser gives a page no serial port; Chrome, Edge and Chromium do. The same page reaches robots from any browser when Astrolabe, installed on your computer, serves it.</p>;
+    if (!crossOriginIsolated)
+      return (
+        <>
+          <p>Over a USB cable, with nothing installed. The page loads anew once for it.</p>
+          <button type="button" class="outline" onClick={() => attempt(load_isolated)}>Use a serial port</button>
+        </>
+      );
+    return <Ports {...props} attempt={attempt} none="Plug in its cable, switch it on, and choose its port."
+      list={async () => (await port_names()).map((path) => ({ path, what: "chosen before" }))} choose={choose_port} />;
+  };
   return (
     <article aria-label="A robot at this computer">
       <h2>A robot at this computer</h2>
+      {content()}
+      {problem && <p role="alert" class="problem">{problem}</p>}
+    </article>
+  );
+}
+
+/** `choose`: has a person choose another port, where the browser asks for it. */
+function Ports(props: Props & { list: () => Promise<Port[]>; choose?: () => Promise<string>; none: string; attempt: (what: () => Promise<unknown>) => void }) {
+  const { choose, open, attempt } = props;
+  const [ports, set_ports] = useState<Port[] | null>(null);
+  const look = () => attempt(async () => set_ports(await props.list()));
+  useEffect(look, []);
+  return (
+    <>
       {ports?.map(({ path, what }) => (
-        <button type="button" class="port" key={path} disabled={busy} onClick={() => open({ port: path })}>
+        <button type="button" class="port" key={path} disabled={props.busy} onClick={() => open({ port: path })}>
           {path} <small>{what}</small>
         </button>
       ))}
-      {ports?.length === 0 && <p>There is no serial port with a robot. Plug in its cable and switch it on.</p>}
-      {problem && <p role="alert" class="problem">{problem}</p>}
-      <button type="button" class="outline" onClick={look}>Look again</button>
-    </article>
+      {ports?.length === 0 && <p>{props.none}</p>}
+      {choose ? (
+        <button type="button" disabled={props.busy} onClick={() => attempt(async () => open({ port: await choose() }))}>Choose a port</button>
+      ) : (
+        <button type="button" class="outline" onClick={look}>Look again</button>
+      )}
+    </>
   );
 }
 
@@ -69,14 +111,8 @@ export function Connect({ robot }: { robot: Robot }) {
       <h1>Watch and drive a robot</h1>
       {problem && <p role="alert" class="problem">{problem}</p>}
       <div class="robots">
-        {robot.backend.has_ports && <Ports robot={robot} busy={busy} open={(question) => void open(question)} />}
+        <RealRobot robot={robot} busy={busy} open={(question) => void open(question)} />
         <Simulated busy={busy} open={(question) => void open(question)} />
-        {!robot.backend.has_ports && (
-          <article>
-            <h2>A real robot</h2>
-            <p>This page, as it comes from a web server, reaches no cable. The same page reaches robots at your computer when Astrolabe, installed there, serves it.</p>
-          </article>
-        )}
       </div>
     </>
   );

@@ -92,11 +92,12 @@ function ByCommand({ robot, progress, finish }: StepProps) {
       await robot.read_parameters();
       finish([`calibrated with ${truth!.what}: ${Object.entries(factors_of(robot)).map(([name, value]) => `${name} ${value}`).join(", ")}`]);
     });
+  const may_stay = robot.backend.has_ports;
   if (!truth) return <p>First choose the ground truth, one step back.</p>;
   return (
     <>
-      <p>With {truth.what} this line, typed in a terminal at this computer, drives the experiment, asks for what it needs, and loads what it finds. This page may stay open.</p>
-      <pre class="command"><code>{truth.command.replace("PORT", robot.opened?.port || "PORT")}</code></pre>
+      <p>With {truth.what} this line, typed in a terminal at this computer, drives the experiment, asks for what it needs, and loads what it finds. {may_stay ? "This page may stay open." : "Leave the robot here before, because a browser's port is for this page alone, and open it again afterwards."}</p>
+      <pre class="command"><code>{may_stay ? truth.command.replace("PORT", robot.opened?.port || "PORT") : truth.command.replace("--port PORT ", "")}</code></pre>
       <button type="button" disabled={busy} aria-busy={busy} onClick={look}>It is done: read the robot</button>
       <Problem sentence={problem} />
     </>

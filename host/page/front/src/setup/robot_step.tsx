@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import { kChoices, kUsual, question_of, Slider } from "../choices";
-import { Ports } from "../live/connect";
+import { RealRobot } from "../live/connect";
 import type { Robot } from "../live/robot";
 import type { Progress } from "./progress";
 import { Problem } from "./step";
@@ -36,7 +36,7 @@ export function RobotStep(props: { robot: Robot; busy: boolean; problem: string;
     <>
       <Problem sentence={problem} />
       <div class="robots">
-        {robot.backend.has_ports && <Ports robot={robot} busy={busy} open={(question) => begin(question as Progress["question"])} />}
+        <RealRobot robot={robot} busy={busy} open={begin} />
         <article aria-label="A simulated robot">
           <h2>A simulated robot</h2>
           <p>As somebody has just built it, with mistakes to be found.</p>
@@ -55,12 +55,6 @@ export function RobotStep(props: { robot: Robot; busy: boolean; problem: string;
           </details>
           <button type="button" disabled={busy} aria-busy={busy} onClick={simulate}>Simulate this robot</button>
         </article>
-        {!robot.backend.has_ports && (
-          <article aria-label="A real robot">
-            <h2>A real robot</h2>
-            <p>This page, as it comes from a web server, reaches no cable. The same page reaches robots at your computer when Astrolabe, installed there, serves it.</p>
-          </article>
-        )}
       </div>
     </>
   );
