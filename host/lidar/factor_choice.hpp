@@ -21,6 +21,7 @@ struct FactorSet {
   std::string_view name;
   bool scale, turn, bend;
 
+  bool has_all() const { return scale && turn && bend; }
   /// The factors in the set have their wide prior, and so have the scanner's place and, if stamps may be late, its clock. The others
   /// are near the loaded ones, as near as those of a robot that follows other drives as well without a change.
   Prior prior(const Unknowns& start, bool late) const;

@@ -202,15 +202,15 @@ std::vector<HeldOutRun> HoldOut::judged() const {
   return runs;
 }
 
-void require_more_than_drift(const MlEstimate& all, const WheelFactors& in_use, bool scale_known,
-                             CrossValidation& out) {
+void weigh_against_drift(const MlEstimate& all, const WheelFactors& in_use, bool scale_known,
+                         CrossValidation& out) {
   std::vector<int> shown{kRatio, kBaseOverScale};
   if (scale_known) shown.push_back(kScale);
   if (all.covariance(kE, kE) > 0) shown.push_back(kRatioE);  // otherwise it is held
   const Eigen::MatrixXd jacobian = ratios_by_factors(all.factors)(shown, Eigen::all);
-  out.require_more_than_drift(jacobian * (vector_of(all.factors) - vector_of(in_use)),
-                              jacobian * all.covariance * jacobian.transpose(),
-                              jacobian * all.covariance_another_day * jacobian.transpose());
+  out.weigh_against_drift(jacobian * (vector_of(all.factors) - vector_of(in_use)),
+                          jacobian * all.covariance * jacobian.transpose(),
+                          jacobian * all.covariance_another_day * jacobian.transpose());
 }
 
 }  // namespace
@@ -241,7 +241,7 @@ CrossValidation cross_validate(const FittedDrives& drives, const WheelFactors& i
   }
   out.runs = hold_out.judged();
   out.judge();
-  require_more_than_drift(all, in_use, scale_known, out);
+  weigh_against_drift(all, in_use, scale_known, out);
   if (out.verdict == Verdict::better && may_be_worse_elsewhere(all, hold_out.change())) {
     out.verdict = Verdict::unknown;
     out.not_judged.push_back(

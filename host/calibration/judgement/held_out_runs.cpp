@@ -74,8 +74,8 @@ void CrossValidation::judge() {
   if (!not_judged.empty() && !clearly_worse) verdict = Verdict::unknown;
 }
 
-void CrossValidation::require_more_than_drift(const Eigen::VectorXd& change, const Eigen::MatrixXd& own,
-                                              const Eigen::MatrixXd& another_day) {
+void CrossValidation::weigh_against_drift(const Eigen::VectorXd& change, const Eigen::MatrixXd& own,
+                                          const Eigen::MatrixXd& another_day) {
   const auto is_within = [&](const Eigen::MatrixXd& covariance) {
     return change.dot(covariance.ldlt().solve(change)) <= chi_square_95(static_cast<int>(change.size()));
   };

@@ -59,8 +59,8 @@ struct CrossValidation {
   /// them would show no more than that. The factors in use have an error of their own, which is taken to be like that of these
   /// drives. `change` is from them to those found, in at most four independent quantities that these
   /// drives show; `own` and `another_day` are the covariances of what was found, without and with what changes from day to day.
-  void require_more_than_drift(const Eigen::VectorXd& change, const Eigen::MatrixXd& own,
-                               const Eigen::MatrixXd& another_day);
+  void weigh_against_drift(const Eigen::VectorXd& change, const Eigen::MatrixXd& own,
+                           const Eigen::MatrixXd& another_day);
   /// For `not_judged`, if a chi-square of what these runs alone show is significant. The values are the names.
   static Remark known_by_these_alone(const std::vector<std::string>& held_out);
   /// For `not_judged`: "without run 1 and run 3, the runs do not separate ...". Its kind is the

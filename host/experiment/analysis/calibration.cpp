@@ -311,8 +311,8 @@ void add_drift(Calibration& result) {
   const auto covariance_of = [&](const Eigen::Vector3d& independent) -> Eigen::MatrixXd {
     return independent.head(shown).cwiseAbs2().asDiagonal();
   };
-  result.judgement.require_more_than_drift(change.head(shown), covariance_of(own_errors),
-                                           covariance_of(on_another_day));
+  result.judgement.weigh_against_drift(change.head(shown), covariance_of(own_errors),
+                                       covariance_of(on_another_day));
 }
 
 /// What scans say of the factors.

@@ -77,7 +77,7 @@ std::string changed_sentence(const ScanCalibration& found) {
   return fmt::format(
       "These factors are from the drives alone, which helps on pieces that were not used to find them: {}.{}",
       factors_in(found.choice.set.name),
-      found.choice.set.name == "SGE"
+      found.choice.set.has_all()
           ? ""
           : " The others are moved as far as the drives show them better than the loaded ones are known.");
 }

@@ -102,9 +102,8 @@ TEST(CrossValidation, CallsItLittleToGainOnlyWhereTheDriftAloneExplainsTheChange
   const auto judged = [](double change, double own) {
     CrossValidation out;
     out.verdict = Verdict::better;
-    out.require_more_than_drift(Eigen::VectorXd::Constant(1, change),
-                                Eigen::MatrixXd::Constant(1, 1, own * own),
-                                Eigen::MatrixXd::Constant(1, 1, own * own + 1));
+    out.weigh_against_drift(Eigen::VectorXd::Constant(1, change), Eigen::MatrixXd::Constant(1, 1, own * own),
+                            Eigen::MatrixXd::Constant(1, 1, own * own + 1));
     return out;
   };
   EXPECT_EQ(judged(3, 0.1).verdict, Verdict::better);
@@ -126,9 +125,8 @@ TEST(CrossValidation, AsksForMoreDrivesOnlyWhereTheyMayShowMoreThanADrift) {
     }
     out.judge();
     EXPECT_EQ(out.verdict, Verdict::unknown);
-    out.require_more_than_drift(Eigen::VectorXd::Constant(1, change),
-                                Eigen::MatrixXd::Constant(1, 1, own * own),
-                                Eigen::MatrixXd::Constant(1, 1, own * own + 1));
+    out.weigh_against_drift(Eigen::VectorXd::Constant(1, change), Eigen::MatrixXd::Constant(1, 1, own * own),
+                            Eigen::MatrixXd::Constant(1, 1, own * own + 1));
     return out;
   };
   const CrossValidation within = judged(1.9, 0.1);
