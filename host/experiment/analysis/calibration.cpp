@@ -430,14 +430,15 @@ void weigh_loaded_scale(double sigma, Calibration& result) {
   calibration::WheelFactors& factors = found.factors;
   const double loaded = (found.loaded.c_r + found.loaded.c_l) / 2;
   const Eigen::Vector4d by(0.5, 0.5, 0, 0), with_scale = found.covariance * by;
-  const Eigen::Vector4d gain = with_scale / (by.dot(with_scale) + std::pow(sigma * loaded, 2));
-  const Eigen::Vector4d change = gain * (loaded - result.scale());
+  const double variance = by.dot(with_scale) + std::pow(sigma * loaded, 2), apart = loaded - result.scale();
+  const Eigen::Vector4d gain = with_scale / variance, change = gain * apart;
   factors.c_r += change(0);
   factors.c_l += change(1);
   factors.b_m += change(2);
   factors.e += change(3);
   found.covariance -= gain * with_scale.transpose();
   result.loaded_scale_sigma = sigma;
+  result.loaded_scale_apart = std::abs(apart) / std::sqrt(variance);
   take_factors(found, result);
 }
 

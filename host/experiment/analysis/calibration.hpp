@@ -65,6 +65,7 @@ struct Calibration {
   double truth_scale_sigma = 0;
   /// Relative standard error of the loaded S, which then counts beside that of the scans; infinite if nobody has stated it.
   double loaded_scale_sigma = std::numeric_limits<double>::infinity();
+  double loaded_scale_apart = 0;  // then: what both differed by, in standard errors of the difference
   /// The scale from measured lines, which `factors` already contain; none without lines, and none by maximum likelihood.
   std::optional<calibration::LineScale> line_scale;
   std::vector<std::string> left_out;  // squares that end poses do not use: which, and why

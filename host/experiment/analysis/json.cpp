@@ -268,7 +268,8 @@ nlohmann::json to_json(const Calibration& calibration) {
     json["truth_scale"] = {{"measured", std::isfinite(calibration.truth_scale_sigma)},
                            {"standard_error", number(calibration.truth_scale_sigma)}};
   if (std::isfinite(calibration.loaded_scale_sigma))
-    json["loaded_scale"] = {{"standard_error", calibration.loaded_scale_sigma}};
+    json["loaded_scale"] = {{"standard_error", calibration.loaded_scale_sigma},
+                            {"errors_apart", calibration.loaded_scale_apart}};
   if (!calibration.left_out.empty()) json["left_out"] = calibration.left_out;
   if (calibration.misfit) json["misfit"] = calibration.misfit->sentence;
   if (const MlResult* ml = calibration.ml()) json.update(likelihood_json(*ml));

@@ -48,6 +48,9 @@ std::string session_text(const MlResult& ml, int session) {
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
+/// Of a normal difference in standard errors: one in a hundred is larger.
+constexpr double kUnlikely = 2.6;
+
 }  // namespace
 
 int decimals_by(double error, int decimals) {
@@ -115,10 +118,14 @@ std::string scale_sentence(const Calibration& found) {
   const lidar::ScanCalibration* scans = found.scans();
   const calibration::MlErrors errors =
       scans == nullptr ? found.ml()->estimate.se : calibration::errors_of(scans->covariance, scans->factors);
-  const std::string loaded = std::isinf(found.loaded_scale_sigma)
-                                 ? ""
-                                 : fmt::format(" The loaded S is known to {:.2g} % and counts with that.",
-                                               100 * found.loaded_scale_sigma);
+  std::string loaded;
+  if (std::isfinite(found.loaded_scale_sigma))
+    loaded = fmt::format(" The loaded S is known to {:.2g} % and counts with that.",
+                         100 * found.loaded_scale_sigma);
+  if (found.loaded_scale_apart > kUnlikely)
+    loaded += fmt::format(
+        " It is {:.1f} standard errors from that of the scans, so one of the two is not known as well.",
+        found.loaded_scale_apart);
   return fmt::format(
       "The scale of the {} is known to {:.2g} %, which is part of the errors of c_R, c_L, b and S; E_d and "
       "b / S do not depend on it (b / S {} mm).{}",

@@ -9,7 +9,7 @@
 namespace astro::experiment {
 
 /// Standard errors of the drives themselves over values, without that of the ground truth's scale, because driving on makes no others
-/// smaller; NaN if the method does not determine them.
+/// smaller; NaN if the method does not determine them. Precondition: no loaded S counts beside that of scans.
 calibration::Precision precision_of(const Calibration& calibration);
 
 /// All three are known and at most `target`.

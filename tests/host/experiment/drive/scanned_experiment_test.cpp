@@ -177,6 +177,10 @@ TEST_F(ScannedExperiment, HasTheErrorOfTheRangesScaleWhichAPersonMayKnowBetter) 
   EXPECT_THAT(method_text(found), testing::HasSubstr("ranges is known to 1 %"));
 }
 
+double b_over_scale_se_m(const Calibration& found) {
+  return calibration::errors_of(found.scans()->covariance, found.factors).b_over_scale_m;
+}
+
 TEST_F(ScannedExperiment, WeighsALoadedScaleThatIsKnownWithThatOfTheScansByInformation) {
   run(scanned_plan());
   const Calibration by_scans = calibrate(read_run_set(folder_.path() / "before"), {});
@@ -190,9 +194,19 @@ TEST_F(ScannedExperiment, WeighsALoadedScaleThatIsKnownWithThatOfTheScansByInfor
     EXPECT_NEAR(found.se.scale, 1 / std::sqrt(of_scans + of_loaded), 1e-9);
     // Both depend on the scale by their correlation with it alone, which is far below their errors.
     EXPECT_NEAR(found.E_d(), by_scans.E_d(), by_scans.se.E_d / 4);
-    EXPECT_NEAR(precision_of(found).b, precision_of(by_scans).b, 0.1 * precision_of(by_scans).b);
+    EXPECT_NEAR(b_over_scale_se_m(found), b_over_scale_se_m(by_scans), 0.1 * b_over_scale_se_m(by_scans));
     EXPECT_EQ(found.judgement.verdict, by_scans.judgement.verdict);
   }
+}
+
+TEST_F(ScannedExperiment, SaysThatALoadedScaleContradictsThatOfTheScans) {
+  run(scanned_plan());
+  Calibration found = calibrate(read_run_set(folder_.path() / "before"), {});
+  auto& scans = std::get<lidar::ScanCalibration>(found.detail);
+  scans.loaded.c_r *= 1.05, scans.loaded.c_l *= 1.05;
+  weigh_loaded_scale(5e-4, found);
+  EXPECT_NEAR(found.loaded_scale_apart, 5, 1) << "by the one per cent of the ranges";
+  EXPECT_THAT(method_text(found), testing::HasSubstr("standard errors from that of the scans"));
 }
 
 TEST_F(ScannedExperiment, WithoutTheScansOfOneRunIsNotCalibratedUnlessSomebodyNamesAMethod) {
