@@ -1,25 +1,15 @@
 #include "host/live/dashboard/question_queue.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
+
+#include "host/page/robot/robot_calls.hpp"
 
 namespace astro::dashboard {
 namespace {
 
-bool stops(std::string_view call) {
-  constexpr std::array<std::string_view, 5> kStops{kPageGone, "robot/stop", "robot/pause",
-                                                   "robot/emergency_stop", "robot/disarm"};
-  return std::ranges::find(kStops, call) != kStops.end();
-}
-
-bool moves(std::string_view call) {
-  constexpr std::array<std::string_view, 8> kMoves{"robot/arm",         "robot/drive",       "robot/path",
-                                                   "robot/resume",      "robot/probe_motor", "robot/tune",
-                                                   "robot/load_tuning", "robot/experiment"};
-  return std::ranges::find(kMoves, call) != kMoves.end();
-}
+bool stops(std::string_view call) { return call == kPageGone || page::RobotCalls::stops(call); }
 
 }  // namespace
 
@@ -31,7 +21,7 @@ std::vector<Question> QuestionQueue::push(Question question) {
     // nobody would end what a page watches or records that is not there.
     const bool gone = question.call == kPageGone;
     const auto stays = std::stable_partition(others_.begin(), others_.end(), [&](const Question& each) {
-      return gone ? each.page != question.page : !moves(each.call);
+      return gone ? each.page != question.page : !page::RobotCalls::moves(each.call);
     });
     std::move(stays, others_.end(), std::back_inserter(refused));
     others_.erase(stays, others_.end());

@@ -1,6 +1,7 @@
 #include "host/page/robot/robot_calls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -109,6 +110,19 @@ json RobotCalls::answer(Page page, const std::string& call, const json& question
       remedies_of);
   report();
   return told;
+}
+
+bool RobotCalls::stops(std::string_view call) {
+  constexpr std::array<std::string_view, 4> kStops{"robot/stop", "robot/pause", "robot/emergency_stop",
+                                                   "robot/disarm"};
+  return std::ranges::find(kStops, call) != kStops.end();
+}
+
+bool RobotCalls::moves(std::string_view call) {
+  constexpr std::array<std::string_view, 8> kMoves{"robot/arm",         "robot/drive",       "robot/path",
+                                                   "robot/resume",      "robot/probe_motor", "robot/tune",
+                                                   "robot/load_tuning", "robot/experiment"};
+  return std::ranges::find(kMoves, call) != kMoves.end();
 }
 
 json RobotCalls::ports_answer(const RobotPorts& ports) {
@@ -342,7 +356,7 @@ json RobotCalls::answer_meanwhile(Page page, const std::string& call, const json
         // This asks the robot nothing, and a page that knows the robot can stop it.
         if (call == "robot/open") return open(page, question);
         const bool emergency = call == "robot/emergency_stop";
-        if (!emergency && call != "robot/stop" && call != "robot/pause" && call != "robot/disarm")
+        if (!stops(call))
           throw Error("the robot is being measured: stop it, or ask again when that is done",
                       RobotCallProblem::measuring);
         stop_measurement_ = true;

@@ -42,6 +42,10 @@ class RobotCalls {
 
   /// Whether the call is one of these: "robot/...".
   static bool is_named(std::string_view call) { return call.starts_with("robot/"); }
+  /// Whether the call stops the robot, or may make it move: where calls wait, those that stop it overtake all others, and what was asked
+  /// before to move it is withdrawn.
+  static bool stops(std::string_view call);
+  static bool moves(std::string_view call);
   /// The answer to robot/ports, of which the list may take half a second: for callers that ask it in another thread.
   static nlohmann::json ports_answer(const RobotPorts& ports);
 

@@ -15,7 +15,7 @@
 /// The module's whole surface: answer(call, question, emit, waited_ms), where call, question and what is answered are texts of JSON, and
 /// emit is a function that gets one; the question was asked waited_ms ago. Files are those of Emscripten's file system in memory
 /// below kFolder. Events of the robot come with the call during which they happen, so the page asks robot/step {"now_s": seconds of its
-/// clock} about every 20 ms while a robot is open. A page that gives the module an object `serial` (page_port.hpp) has ports.
+/// clock} about every 20 ms while a robot is open. stops(call) and moves(call) say what RobotCalls does of a call. A page that gives the module an object `serial` (page_port.hpp) has ports.
 namespace {
 
 using astro::microseconds;
@@ -79,4 +79,11 @@ std::string answer(const std::string& call, const std::string& question, emscrip
 
 }  // namespace
 
-EMSCRIPTEN_BINDINGS(astrolabe) { emscripten::function("answer", &answer); }
+bool stops(const std::string& call) { return astro::page::RobotCalls::stops(call); }
+bool moves(const std::string& call) { return astro::page::RobotCalls::moves(call); }
+
+EMSCRIPTEN_BINDINGS(astrolabe) {
+  emscripten::function("answer", &answer);
+  emscripten::function("stops", &stops);
+  emscripten::function("moves", &moves);
+}

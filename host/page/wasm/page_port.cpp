@@ -9,8 +9,8 @@ namespace {
 using emscripten::val;
 using std::chrono::milliseconds;
 
-/// Operating systems need up to some seconds for it.
-constexpr milliseconds kOpening(4000);
+/// Operating systems need up to a second for it.
+constexpr milliseconds kOpening(2000);
 constexpr milliseconds kBetweenTries(50);
 
 val serial() { return val::module_property("serial"); }
@@ -42,8 +42,12 @@ microseconds PagePort::now() const {
 
 void PagePort::reopen(microseconds timeout) {
   const microseconds deadline = now() + timeout;
-  for (std::string why; !(why = why_not_opened()).empty(); line_.call<void>("pause", in_ms(kBetweenTries)))
+  while (true) {
+    const std::string why = why_not_opened();
+    if (why.empty()) return;
     if (now() >= deadline) throw Error(name_ + " " + why, {}, {name_});
+    line_.call<void>("pause", in_ms(kBetweenTries));
+  }
 }
 
 std::string PagePort::why_not_opened() { return line_.call<std::string>("open", name_, in_ms(kOpening)); }

@@ -1,6 +1,6 @@
 import type { Backend, Event_ } from "./backend";
 import { OpenQuestions } from "./open_questions";
-import { common_clock_ms, put_question } from "./serial/question_queue";
+import { put_question } from "./serial/question_queue";
 import { OpenPort } from "./serial/serial_ports";
 import { SharedBytes } from "./serial/shared_bytes";
 import type { FromWorker, ToWorker } from "./wasm_messages";
@@ -38,7 +38,7 @@ export class WasmBackend implements Backend {
   }
 
   ask<Answer>(call: string, question: unknown, told?: (event: Event_) => void): Promise<Answer> {
-    return this.questions.ask<Answer>((id) => this.send({ id, kind: "ask", call, question, asked_ms: common_clock_ms() }), told);
+    return this.questions.ask<Answer>((id) => this.send({ id, kind: "ask", call, question, asked_ms: Date.now() }), told);
   }
 
   listen(told: (event: Event_) => void) {

@@ -1,12 +1,12 @@
 import { sentence_of } from "./backend";
 import { KeptRecording, type ModuleFiles } from "./live/kept_recordings";
-import { common_clock_ms, type RobotQuestion, take_questions } from "./serial/question_queue";
+import { type RobotQuestion, type Rules, take_questions, WaitingQuestions } from "./serial/question_queue";
 import { SerialLine } from "./serial/serial_line";
 import { SharedBytes } from "./serial/shared_bytes";
 import type { FromWorker, ToWorker } from "./wasm_messages";
 
 /** The module's surface (host/page/wasm/main.cpp). */
-interface Module {
+interface Module extends Rules {
   answer(call: string, question: string, emit: (event: string) => void, waited_ms: number): string;
   serial?: SerialLine;
   FS: ModuleFiles & { mkdir(path: string): void; readFile(path: string): Uint8Array<ArrayBuffer>; writeFile(path: string, bytes: Uint8Array): void };
@@ -52,19 +52,33 @@ function ask(module: Module, question_id: number, call: string, question: unknow
   return JSON.parse(module.answer(call, JSON.stringify(question), (event) => post({ id, kind: "event", event: JSON.parse(event) }), waited_ms)) as Answered;
 }
 
+const refuse = (id: number, sentence: string) => post({ id, kind: "refusal", sentence, remedies: [] });
+
 function answer(module: Module, { id, call, question, asked_ms }: RobotQuestion) {
-  const { result, error } = ask(module, id, call, question, common_clock_ms() - asked_ms);
-  if (error) post({ id, kind: "refusal", ...error });
-  else post({ id, kind: "answer", answer: result });
-  if (call === "robot/open") let_time_pass(module);
-  if (!error) keep_recordings(module, call, question, result).catch((why: unknown) => notice(sentence_of(why)));
+  try {
+    const { result, error } = ask(module, id, call, question, Math.max(0, Date.now() - asked_ms));
+    if (error) post({ id, kind: "refusal", ...error });
+    else post({ id, kind: "answer", answer: result });
+    if (call === "robot/open") let_time_pass(module);
+    if (!error) keep_recordings(module, call, question, result).catch((why: unknown) => notice(sentence_of(why)));
+  } catch (why) {
+    refuse(id, sentence_of(why));
+  }
 }
 
-/** A question that is asked while another is answered is answered from within that. */
-function share(module: Module, line: SharedBytes, questions: SharedBytes) {
-  module.serial = new SerialLine(line, (message) => post({ id: 0, ...message }), () => {
-    for (const each of take_questions(questions)) answer(module, each);
-  });
+/** What the page shares, if it may. */
+let shared: { line: SharedBytes; questions: SharedBytes } | undefined;
+
+/** Answers the questions that wait in shared memory; those that come while one is answered are answered from within that. */
+function look(module: Module) {
+  if (!module.serial) {
+    const { line, questions } = shared!;
+    const waiting = new WaitingQuestions(questions, module, ({ id }) => refuse(id, "it was not carried out: the robot was stopped"));
+    module.serial = new SerialLine(line, (message) => post({ id: 0, ...message }), () => {
+      for (let next; (next = waiting.next()); ) answer(module, next);
+    });
+  }
+  module.serial.meanwhile();
 }
 
 let kept: KeptRecording[] = [];
@@ -110,6 +124,10 @@ function let_time_pass(module: Module) {
 
 onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   const { id } = data;
+  if (data.kind === "share") {
+    shared = { line: new SharedBytes(data.line), questions: new SharedBytes(data.questions) };
+    return;
+  }
   try {
     const module = await loading;
     if (data.kind === "file") {
@@ -123,10 +141,10 @@ onmessage = async ({ data }: MessageEvent<ToWorker>) => {
       post({ id, kind: "answer", answer: null });
       return;
     }
-    if (data.kind === "share") share(module, new SharedBytes(data.line), new SharedBytes(data.questions));
-    else if (data.kind === "look") module.serial!.meanwhile();
+    if (data.kind === "look") look(module);
     else answer(module, data);
   } catch (error) {
-    post({ id, kind: "refusal", sentence: sentence_of(error), remedies: [] });
+    refuse(id, sentence_of(error));
+    if (data.kind === "look") for (const each of take_questions(shared!.questions)) refuse(each.id, sentence_of(error));
   }
 };

@@ -2,12 +2,15 @@
 import { constants, openSync, writeSync } from "node:fs";
 import tty from "node:tty";
 
-/** In the page: navigator.serial with one port, whose bytes go through the functions of SerialPortOfPage. */
+/** In the page: navigator.serial with one port, whose bytes go through the functions that with_serial_port gives it. */
 const fake_serial = () => {
   const kChosen = "port-was-chosen";
   let incoming;
   globalThis.bytes_have_come = (bytes) => incoming?.enqueue(Uint8Array.from(bytes));
-  globalThis.cable_is_pulled = () => incoming?.error(new DOMException("The device has been lost.", "NetworkError"));
+  globalThis.cable_is_pulled = () => {
+    port.readable = null;
+    incoming?.error(new DOMException("The device has been lost.", "NetworkError"));
+  };
   const port = {
     readable: null,
     writable: null,
@@ -24,13 +27,13 @@ const fake_serial = () => {
     },
   };
   Object.defineProperty(navigator, "serial", {
-    value: {
+    value: Object.assign(new EventTarget(), {
       getPorts: async () => (sessionStorage.getItem(kChosen) ? [port] : []),
       requestPort: async () => {
         sessionStorage.setItem(kChosen, "1");
         return port;
       },
-    },
+    }),
   });
 };
 

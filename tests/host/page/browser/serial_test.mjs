@@ -45,11 +45,10 @@ test("a robot whose cable is pulled is said to be lost, and is there again when 
     assert.ok(await button(page, "Arm").isDisabled());
     await robot.start();
     await in_mode(page, "disarmed");
-    // Its parameters are read first.
-    const armed = strip(page).getByText("armed", { exact: true });
-    while (!(await armed.isVisible())) {
-      await button(page, "Arm").click();
-      await armed.or(strip(page).getByText("are being read")).waitFor();
+    // Its parameters are read first, and the button goes when it is armed.
+    while (!(await strip(page).getByText("armed", { exact: true }).isVisible())) {
+      await button(page, "Arm").click({ timeout: 1000 }).catch(() => {});
+      await page.waitForTimeout(200);
     }
   });
 });
@@ -75,6 +74,19 @@ test("a measurement of a robot at a port is ended by the emergency stop", async 
   });
 });
 
+test("a stop that comes with a measurement overtakes it, and nothing is driven", async () => {
+  await beside_robot("#setup", async (page) => {
+    await button(page, "Choose a port").click();
+    for (const step of ["Wires", "Counts per turn", "Wheels and wheelbase"]) await panel(page, step).getByRole("button", { name: "Skip this step" }).click();
+    const step = panel(page, "Speed control");
+    const both = [step.getByRole("button", { name: "The floor is free: measure" }), strip(page).getByRole("button", { name: /STOP/ })];
+    const [measure, stop] = await Promise.all(both.map((each) => each.elementHandle()));
+    await page.evaluate(([measure, stop]) => (measure.click(), stop.click()), [measure, stop]);
+    await step.getByText("it was not carried out: the robot was stopped").waitFor();
+    await in_mode(page, "fault");
+  });
+});
+
 test("a page from any web server may use a port once it has loaded anew", async () => {
   await with_robot((robot) =>
     in_browser("#live", {}, async (page) => {
@@ -88,6 +100,6 @@ test("a page from any web server may use a port once it has loaded anew", async 
 test("a browser without serial ports says which have them", async () => {
   const none = () => Object.defineProperty(navigator, "serial", { value: undefined });
   await in_browser("#live", { isolated: true, init: none }, async (page) => {
-    await page.getByText("Chrome, Edge and Chromium do").filter({ visible: true }).waitFor();
+    await page.getByText("current Chrome, Edge and Firefox do").filter({ visible: true }).waitFor();
   });
 });

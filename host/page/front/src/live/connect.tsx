@@ -16,46 +16,67 @@ interface Props {
   open: (question: { port: string }) => void;
 }
 
+interface Attempting extends Props {
+  /** Does it, and shows why it cannot be done. */
+  attempt: (what: () => Promise<unknown>) => void;
+}
+
 /** A robot at a cable: at a port of the program that serves this page, or of the browser. */
 export function RealRobot(props: Props) {
-  const { robot } = props;
   const [problem, set_problem] = useState("");
   const attempt = (what: () => Promise<unknown>) => {
     set_problem("");
     // A person who chooses no port knows it.
     what().catch((error: unknown) => (error as Error).name !== "NotFoundError" && set_problem(sentence_of(error)));
   };
-  const content = () => {
-    if (robot.backend.has_ports)
-      return <Ports {...props} attempt={attempt} none="There is no serial port with a robot. Plug in its cable and switch it on."
-        list={async () => (await robot.backend.ask<{ ports: Port[] }>("robot/ports", {})).ports} />;
-    if (!web_serial())
-      return <p>This browser gives a page no serial port; Chrome, Edge and Chromium do. The same page reaches robots from any browser when Astrolabe, installed on your computer, serves it.</p>;
-    if (!crossOriginIsolated)
-      return (
-        <>
-          <p>Over a USB cable, with nothing installed. The page loads anew once for it.</p>
-          <button type="button" class="outline" onClick={() => attempt(load_isolated)}>Use a serial port</button>
-        </>
-      );
-    return <Ports {...props} attempt={attempt} none="Plug in its cable, switch it on, and choose its port."
-      list={async () => (await port_names()).map((path) => ({ path, what: "chosen before" }))} choose={choose_port} />;
-  };
   return (
     <article aria-label="A robot at this computer">
       <h2>A robot at this computer</h2>
-      {content()}
+      <WayToIt {...props} attempt={attempt} />
       {problem && <p role="alert" class="problem">{problem}</p>}
     </article>
   );
 }
 
+function WayToIt(props: Attempting) {
+  const { robot, attempt } = props;
+  if (robot.backend.has_ports)
+    return <Ports {...props} none="There is no serial port with a robot. Plug in its cable and switch it on."
+      list={async () => (await robot.backend.ask<{ ports: Port[] }>("robot/ports", {})).ports} />;
+  if (!isSecureContext || !web_serial())
+    return (
+      <p>
+        {isSecureContext ? "This browser gives a page no serial port; current Chrome, Edge and Firefox do." : "Browsers give serial ports only to pages from https or from this computer."}{" "}
+        The same page reaches robots from any browser when Astrolabe, installed on your computer, serves it.
+      </p>
+    );
+  if (!crossOriginIsolated)
+    return (
+      <>
+        <p>Over a USB cable, with nothing installed. The page loads anew once for it.</p>
+        <button type="button" class="outline" onClick={() => attempt(load_isolated)}>Use a serial port</button>
+      </>
+    );
+  return <Ports {...props} none="Plug in its cable, switch it on, and choose its port."
+    list={async () => (await port_names()).map((path) => ({ path, what: "chosen before" }))} choose={choose_port} />;
+}
+
 /** `choose`: has a person choose another port, where the browser asks for it. */
-function Ports(props: Props & { list: () => Promise<Port[]>; choose?: () => Promise<string>; none: string; attempt: (what: () => Promise<unknown>) => void }) {
+function Ports(props: Attempting & { list: () => Promise<Port[]>; choose?: () => Promise<string>; none: string }) {
   const { choose, open, attempt } = props;
   const [ports, set_ports] = useState<Port[] | null>(null);
   const look = () => attempt(async () => set_ports(await props.list()));
-  useEffect(look, []);
+  useEffect(() => {
+    look();
+    const changes = ["connect", "disconnect"];
+    changes.forEach((each) => web_serial()?.addEventListener(each, look));
+    return () => changes.forEach((each) => web_serial()?.removeEventListener(each, look));
+  }, []);
+  const choose_and_open = async (choose: () => Promise<string>) => {
+    const port = await choose();
+    look();
+    open({ port });
+  };
   return (
     <>
       {ports?.map(({ path, what }) => (
@@ -65,7 +86,7 @@ function Ports(props: Props & { list: () => Promise<Port[]>; choose?: () => Prom
       ))}
       {ports?.length === 0 && <p>{props.none}</p>}
       {choose ? (
-        <button type="button" disabled={props.busy} onClick={() => attempt(async () => open({ port: await choose() }))}>Choose a port</button>
+        <button type="button" disabled={props.busy} onClick={() => attempt(() => choose_and_open(choose))}>Choose a port</button>
       ) : (
         <button type="button" class="outline" onClick={look}>Look again</button>
       )}

@@ -31,6 +31,13 @@ export class SharedBytes {
     this.wake();
   }
 
+  /** False, and nothing changes, if it is not `from` any more. */
+  change_state(from: number, to: number): boolean {
+    const changed = Atomics.compareExchange(this.words, kState, from, to) === from;
+    if (changed) this.wake();
+    return changed;
+  }
+
   /** All of them or, where there is no room, none. */
   put(from: Uint8Array): boolean {
     const at = Atomics.load(this.words, kPut);

@@ -98,6 +98,7 @@ function ByCommand({ robot, progress, finish }: StepProps) {
     <>
       <p>With {truth.what} this line, typed in a terminal at this computer, drives the experiment, asks for what it needs, and loads what it finds. {may_stay ? "This page may stay open." : "Leave the robot here before, because a browser's port is for this page alone, and open it again afterwards."}</p>
       <pre class="command"><code>{may_stay ? truth.command.replace("PORT", robot.opened?.port || "PORT") : truth.command.replace("--port PORT ", "")}</code></pre>
+      {!may_stay && <p><button type="button" class="secondary" disabled={busy} onClick={() => void robot.close()}>Leave the robot</button></p>}
       <button type="button" disabled={busy} aria-busy={busy} onClick={look}>It is done: read the robot</button>
       <Problem sentence={problem} />
     </>

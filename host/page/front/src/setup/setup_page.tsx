@@ -1,6 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { Refusal } from "../backend";
 import { Confirm } from "../live/confirm";
+import { RealRobot } from "../live/connect";
 import type { Opened } from "../live/contract";
 import { Faults } from "../live/faults";
 import type { Robot } from "../live/robot";
@@ -124,6 +125,7 @@ export function SetupPage({ robot }: { robot: Robot }) {
           <button type="button" class="secondary" disabled={busy} onClick={() => held.begin(null)}>Begin with another robot</button>
         </div>
         <Problem sentence={problem} />
+        {problem && !progress.question.simulated && <RealRobot robot={robot} busy={busy} open={(at) => work(() => open({ ...progress, question: at }))} />}
       </>
     );
 
