@@ -314,7 +314,7 @@ json RobotCalls::measure(Page page, Measure what, const json& question) {
     found.parameters().refresh();
     found.note_parameters();
   };
-  stop_measurement_ = false;
+  stop_measurement_ = emergency_ = false;
   report_at_ = robot_->now();
   const robot::Restore measuring(measuring_, std::optional(page));
   report();  // now, so that a page that leaves knows that it has to stop the robot
@@ -326,12 +326,15 @@ json RobotCalls::measure(Page page, Measure what, const json& question) {
     return told;
   } catch (const robot::LinkLost&) {
     throw;
-  } catch (...) {
+  } catch (const std::exception& error) {
     try {
       ended();
     } catch (const std::exception&) {
       // The next step() tells that the link is lost; what is thrown here is why the measurement ended.
     }
+    // Whoever drives knows nothing of it, and takes it for another program's.
+    if (emergency_ && dynamic_cast<const Interrupted*>(&error) == nullptr)
+      throw Interrupted("the emergency stop ended the measurement");
     throw;
   }
 }
@@ -360,7 +363,10 @@ json RobotCalls::answer_meanwhile(Page page, const std::string& call, const json
           throw Error("the robot is being measured: stop it, or ask again when that is done",
                       RobotCallProblem::measuring);
         stop_measurement_ = true;
-        if (emergency) session().ask(protocol::EmergencyStop{});
+        if (emergency) {
+          emergency_ = true;
+          session().ask(protocol::EmergencyStop{});
+        }
         return {{"notice", emergency ? "the motors are off" : "the measurement ends"}};
       },
       remedies_of);

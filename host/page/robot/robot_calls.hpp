@@ -128,10 +128,10 @@ class RobotCalls {
   Meanwhile meanwhile_;
   Measurements measurements_;      // of this robot, until it is lost: one that restarts counts anew
   std::optional<Page> measuring_;  // for this page, at this moment
-  bool stop_measurement_ = false;
-  microseconds report_at_{};  // of a measurement
-  bool closing_ = false;      // the robot is brought to rest first
-  microseconds waited_{};     // of the question that is being answered
+  bool stop_measurement_ = false, emergency_ = false;  // a page has asked for it meanwhile
+  microseconds report_at_{};                           // of a measurement
+  bool closing_ = false;                               // the robot is brought to rest first
+  microseconds waited_{};                              // of the question that is being answered
   std::string other_driver_;
   microseconds look_at_{};  // for another program that drives
   StateReport state_report_;

@@ -177,7 +177,7 @@ TEST_F(MeasuredAtAPort, AStopOfAnyPageEndsTheMeasurementAtRestAndDisarmed) {
 }
 
 TEST_F(MeasuredAtAPort, AnEmergencyStopOpensTheBridgesAtOnce) {
-  EXPECT_THAT(sentence(tune_and("emergency_stop")), HasSubstr("emergency"));
+  EXPECT_THAT(sentence(tune_and("emergency_stop")), HasSubstr("the emergency stop ended the measurement"));
   EXPECT_TRUE(meanwhile_answer_.contains("result"));
   EXPECT_EQ(state_after_ms(100)["faults"][0]["name"], "emergency_stop");
 }
