@@ -364,8 +364,8 @@ json RobotCalls::answer_meanwhile(Page page, const std::string& call, const json
                       RobotCallProblem::measuring);
         stop_measurement_ = true;
         if (emergency) {
-          emergency_ = true;
           session().ask(protocol::EmergencyStop{});
+          emergency_ = true;
         }
         return {{"notice", emergency ? "the motors are off" : "the measurement ends"}};
       },

@@ -20,6 +20,8 @@ export const put_question = (queue: SharedBytes, question: RobotQuestion) => que
 
 /** All that were asked so far. */
 export function take_questions(queue: SharedBytes): RobotQuestion[] {
+  // A measurement asks some thousand times a second.
+  if (queue.waiting === 0) return [];
   const bytes = new Uint8Array(queue.waiting);
   queue.take(bytes);
   const lines = new TextDecoder().decode(bytes).split("\n");

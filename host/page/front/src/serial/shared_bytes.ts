@@ -1,4 +1,4 @@
-/** Words before the bytes: how many were put and taken so far, each modulo 2^32, and a count of news, at which the other side waits. */
+/** Words before the bytes: how many were put and taken so far, each modulo 2^32; a count of news, at which the other side waits; the state. */
 const kPut = 0;
 const kTaken = 1;
 const kNews = 2;

@@ -92,7 +92,7 @@ function ByCommand({ robot, progress, finish }: StepProps) {
       await robot.read_parameters();
       finish([`calibrated with ${truth!.what}: ${Object.entries(factors_of(robot)).map(([name, value]) => `${name} ${value}`).join(", ")}`]);
     });
-  const may_stay = robot.backend.has_ports;
+  const may_stay = robot.backend.has_ports || progress.question.simulated !== undefined;
   if (!truth) return <p>First choose the ground truth, one step back.</p>;
   return (
     <>
